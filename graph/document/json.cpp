@@ -197,7 +197,7 @@ class Reader {
                 0,
                 "this is not a Fieldwright graph: its object has no \"fieldwright\"; a graph begins with "
                 "{\"fieldwright\": " +
-                    std::to_string(kFormatVersion));
+                    std::to_string(kFormatVersion) + ", …}");
         const double number = list[version].kind == Kind::number ? numberOf(list[version]) : 0;
         if (number > kFormatVersion && number == std::floor(number))
             return fail(version, "the file has format version " +

@@ -18,7 +18,8 @@ bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 /// Receives nlohmann's SAX events (their names are his) and follows them through the text.
 class Follower {
   public:
-    Follower(std::string_view fileText, const std::string& filePath) : text(fileText), path(filePath) {
+    Follower(std::string_view fileText, const std::string& filePath, const JsonText& read)
+        : text(fileText), path(filePath), what(read.what) {
         if (text.starts_with("\xEF\xBB\xBF")) offset = 3;
         tokens.list.reserve(std::min(text.size() / 8, kMaxJsonValues));
     }
@@ -77,7 +78,7 @@ class Follower {
 
     bool add(Kind kind, std::size_t length, std::string_view content) {
         if (tokens.list.size() >= kMaxJsonValues)
-            return fail(at, "the file holds more than " + std::to_string(kMaxJsonValues) +
+            return fail(at, "the " + what + " holds more than " + std::to_string(kMaxJsonValues) +
                                 " keys and values: split the graph or move data out of it");
         tokens.list.push_back({kind, static_cast<uint32_t>(tokens.list.size() + 1), content, at});
         advanceTo(offset + length);
@@ -175,9 +176,9 @@ class Follower {
         skipSpace();
         bool comma = false, valueNext = true;
         if (tokens.list.empty()) {
-            if (offset == text.size()) return fail(at, "the file is empty: a graph is a JSON object");
+            if (offset == text.size()) return fail(at, "the " + what + " is empty: a graph is a JSON object");
         } else if (open.empty()) {
-            return fail(at, "text after the end of the graph's object: remove it");
+            return fail(at, "text after the end of the " + what + "'s object: remove it");
         } else {
             const JsonToken& parent = tokens.list[open.back().token];
             const bool object = parent.kind == Kind::object;
@@ -197,10 +198,10 @@ class Follower {
             }
             skipSpace();
             if (offset == text.size())
-                return fail(at, "the file ends before the " + std::string(object ? "object" : "array") +
-                                    " that begins at " + std::to_string(parent.at.line) + ":" +
-                                    std::to_string(parent.at.column) + " is closed: it is cut off, or a '" +
-                                    closing + "' is missing");
+                return fail(at, "the " + what + " ends before the " +
+                                    std::string(object ? "object" : "array") + " that begins at " +
+                                    std::to_string(parent.at.line) + ":" + std::to_string(parent.at.column) +
+                                    " is closed: it is cut off, or a '" + closing + "' is missing");
             if (comma && (text[offset] == closing))
                 return fail(
                     at, std::string("a comma stands before the closing '") + closing + "': remove the comma");
@@ -213,15 +214,15 @@ class Follower {
     std::string badToken(std::size_t position, const nlohmann::detail::exception& exception, bool valueNext) {
         const std::string_view rest = text.substr(offset, 12);
         if (rest.starts_with('"') && position > 0) {
-            const std::string_view what = exception.what();
-            const std::size_t begin = what.find("invalid string: ");
-            const std::size_t end = what.find("; last read", begin == std::string_view::npos ? 0 : begin);
+            const std::string_view said = exception.what();
+            const std::size_t begin = said.find("invalid string: ");
+            const std::size_t end = said.find("; last read", begin == std::string_view::npos ? 0 : begin);
             if (begin != std::string_view::npos) {
-                if (position > text.size() || what.find("missing closing quote", begin) < end)
-                    return "the file ends inside the string that begins here: it is cut off, or a '\"' is "
-                           "missing";
+                if (position > text.size() || said.find("missing closing quote", begin) < end)
+                    return "the " + what +
+                           " ends inside the string that begins here: it is cut off, or a '\"' is missing";
                 advanceTo(position - 1);
-                return "in a string: " + std::string(what.substr(begin + 16, end - begin - 16));
+                return "in a string: " + std::string(said.substr(begin + 16, end - begin - 16));
             }
         }
         if (exception.id == 406)
@@ -250,6 +251,7 @@ class Follower {
 
     std::string_view text;
     const std::string& path;
+    const std::string& what;
     std::size_t offset = 0;
     std::vector<Open> open;
 };
@@ -277,17 +279,18 @@ std::size_t firstBadByte(std::string_view text) {
     return std::string_view::npos;
 }
 
-Result<JsonTokens> tokenize(std::string_view text, const std::string& path) {
-    Follower follower(text, path);
-    if (text.size() > kMaxFileBytes) {
-        follower.fail({}, "the file is larger than " + std::to_string(kMaxFileBytes >> 20) +
+Result<JsonTokens> tokenize(std::string_view text, const std::string& path, const JsonText& as) {
+    Follower follower(text, path, as);
+    if (text.size() > as.most) {
+        follower.fail({}, "the " + as.what + " is larger than " + std::to_string(as.most >> 20) +
                               " MiB: split the graph or move data out of it");
         return follower.error;
     }
     if (const std::size_t bad = firstBadByte(text); bad != std::string_view::npos) {
         follower.advanceTo(bad);
-        follower.fail(follower.at, text[bad] == 0 ? "a NUL byte: this is not a text file"
-                                                  : "the text is not UTF-8: save the file in that encoding");
+        follower.fail(follower.at, text[bad] == 0
+                                       ? "a NUL byte: this is not a text"
+                                       : "the " + as.what + " is not UTF-8: write it in that encoding");
         return follower.error;
     }
     if (!Json::sax_parse(text.data(), text.data() + text.size(), &follower)) return follower.error;

@@ -33,13 +33,19 @@ struct JsonTokens {
         unescaped;  ///< contents of strings with escapes, which `text` cannot take from the file
 };
 
+/// What a text is, as its errors call it, and how many bytes it may have.
+struct JsonText {
+    std::string what = "file";
+    std::size_t most = kMaxFileBytes;
+};
+
 /// Offset of the first byte that is no part of well-formed UTF-8, or is NUL; npos if there is none.
 std::size_t firstBadByte(std::string_view text);
 
 /// The values in `text`, which must outlive the result. Errors: what is not JSON or not UTF-8, a key that
 /// stands twice in an object, a number beyond double, nesting or a number of values beyond the limits of
 /// graph.h. `path` is the file they name.
-Result<JsonTokens> tokenize(std::string_view text, const std::string& path);
+Result<JsonTokens> tokenize(std::string_view text, const std::string& path, const JsonText& as = {});
 
 /// The value of a number token; -0 keeps its sign.
 double numberOf(const JsonToken& token);

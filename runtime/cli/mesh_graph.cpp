@@ -66,6 +66,8 @@ std::optional<Graph> openKept(const MeshOptions& options, int& status) {
     if (!graph) return status = kBadInput, std::nullopt;
     if (const Done kept = checkReplacesNone(filesRead(*graph), options.outputs); !kept)
         return print(kept.error()), status = kBadUsage, std::nullopt;
+    if (const Done there = checkCanBeWritten(options.outputs); !there)
+        return print(there.error()), status = kSystemFailure, std::nullopt;
     return graph;
 }
 

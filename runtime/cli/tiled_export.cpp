@@ -308,6 +308,7 @@ int runMerge(const MergeOptions& options) {
         return print(kept.error()), kBadUsage;
     if (const Done distinct = checkDistinct(options.parts.front(), outputs); !distinct)
         return print(distinct.error()), kBadUsage;
+    if (const Done there = checkCanBeWritten(outputs); !there) return print(there.error()), kSystemFailure;
     Progress progress;
     progress.start("read", 0);
     Result<std::vector<TileRecord>> tiles = readParts(options.parts);

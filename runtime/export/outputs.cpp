@@ -4,6 +4,7 @@
 
 #include "graph/assets/triangle_mesh.h"
 #include "graph/document/named_files.h"
+#include "runtime/system/output_file.h"
 
 namespace fw {
 
@@ -63,6 +64,12 @@ Done checkReplacesNone(const std::vector<std::string>& read, const std::vector<s
                                         ", which is read: write to another file",
                              .file = output};
         }
+    return done();
+}
+
+Done checkCanBeWritten(const std::vector<std::string>& outputs) {
+    for (const std::string& output : outputs)
+        if (const auto created = OutputFile::open(output, nullptr); !created) return created.error();
     return done();
 }
 

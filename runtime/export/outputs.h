@@ -1,5 +1,5 @@
-// Outputs that would replace what the work reads, or each other, are refused before any of it is done,
-// whatever their names look like: links and other paths to the same file are seen through.
+// Outputs that would replace what the work reads, or each other, or that cannot be written are refused before
+// any of it is done, whatever their names look like: links and other paths to the same file are seen through.
 #pragma once
 
 #include <string>
@@ -19,5 +19,8 @@ std::vector<std::string> filesRead(const Graph& graph);
 
 /// Refuses outputs that would replace one of these files.
 Done checkReplacesNone(const std::vector<std::string>& read, const std::vector<std::string>& outputs);
+
+/// Refuses outputs that cannot be created where they are wanted, as OutputFile::open().
+Done checkCanBeWritten(const std::vector<std::string>& outputs);
 
 }  // namespace fw

@@ -33,6 +33,9 @@
 // Recipes that differ in their foam alone, or of which some have none, are simulated as one: the fluid flows
 // once, and each foam goes along.
 //
+// simulation.cpp has the steps, and particles that are emitted or moved; simulation_fluid.cpp fluids and
+// foam; simulation_states.cpp what is kept of states.
+//
 // Lifetime: a simulation belongs to one device and its recipes; buffers grow.
 #pragma once
 
@@ -59,6 +62,9 @@ struct Obstacle {
     Buffer parameters = {}, images = {}, volumes = {};
     FieldBuffers buffers() const { return {&parameters, &images, &volumes}; }
 };
+/// Sets the parameters of an obstacle from the live values. Those that it knows of are the first ones: others
+/// may have been added since, and taken away those that it does not read.
+void setParameters(Commands& commands, const Obstacle& obstacle, const std::vector<double>& values);
 
 class Simulation {
   public:

@@ -145,12 +145,22 @@ void Assistant::call(Request request) {
         {"look", &Assistant::look},
         {"measure", &Assistant::measure},
         {"export", &Assistant::exportMesh}};
-    const Json name = request.params.value("name", Json());
+    const Json named = request.params.value("name", Json());
+    if (!named.is_string())
+        return answer(request,
+                      Fault(kWrongParameters, "tools/call: \"name\" is missing, or is no text: give it"));
+    const auto& name = named.get_ref<const std::string&>();
     const Json arguments = request.params.value("arguments", Json::object());
     const auto tool = std::ranges::find_if(tools, [&](const auto& entry) { return name == entry.first; });
-    if (tool == tools.end())
-        return answer(request, Fault(kWrongParameters, "there is no tool " + inQuotes(inLine(name)) +
-                                                           ": tools/list has those there are"));
+    if (tool == tools.end()) {
+        std::vector<std::string> names;
+        for (const auto& entry : tools) names.push_back(entry.first);
+        const std::string near = nearestName(name, names);
+        return answer(request,
+                      Fault(kWrongParameters, "there is no tool " + inQuotes(name) +
+                                                  (near.empty() ? ": there are " + listed(names)
+                                                                : ": did you mean " + inQuotes(near) + "?")));
+    }
     if (!arguments.is_object())
         return answer(request, Fault(kWrongParameters, "tools/call: \"arguments\" is an object"));
     const auto task = std::make_shared<Task>();
@@ -232,6 +242,7 @@ Answer Assistant::nodeHelp(Params& params) {
 Answer Assistant::writeGraph(Params& params) {
     const std::string path = params.text("path", "");
     const Json* given = params.any("graph");
+    params.need("path");
     if (!path.ends_with(kGraphEnding) || path.size() == kGraphEnding.size())
         params.refuse("path", "is the name of a graph file: it ends in " + std::string(kGraphEnding));
     if (!given || (!given->is_object() && !given->is_string()))

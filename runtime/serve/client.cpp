@@ -20,9 +20,10 @@ Answer versionAnswer() {
     Reply reply;
     reply.result = {{"name", "fieldwright"}, {"version", FIELDWRIGHT_VERSION}, {"protocol", kProtocol}};
     reply.result["format"] = kFormatVersion;
-    reply.result["limits"] = {{"messageBytes", kMostMessageBytes}, {"blobBytes", kMostBlobBytes},
-                              {"replyBytes", kMostReplyBytes},     {"documents", kMostDocuments},
-                              {"waiting", kMostWaiting},           {"resolution", kMostServedResolution}};
+    reply.result["limits"] = {
+        {"messageBytes", kMostMessageBytes},  {"blobBytes", kMostBlobBytes}, {"blobs", kMostBlobs},
+        {"replyBytes", kMostReplyBytes},      {"documents", kMostDocuments}, {"waiting", kMostWaiting},
+        {"resolution", kMostServedResolution}};
     return reply;
 }
 
@@ -97,10 +98,10 @@ void Client::take(Request request) {
     forgetEnded();
     const std::string& name = request.method;
     if (name == "cancel") return cancel(request);
-    if (name == "version") return answer(request, versionAnswer());
-    if (name == "nodes") return answer(request, nodesAnswer());
-    if (name == "shutdown") {
-        answer(request, Reply{});
+    if (name == "version" || name == "nodes" || name == "shutdown") {
+        if (const auto fault = Params(request.params, name).fault()) return answer(request, *fault);
+        answer(request, name == "version" ? versionAnswer() : name == "nodes" ? nodesAnswer() : Reply{});
+        if (name != "shutdown") return;
         ends = true;
         return shutDown();
     }
@@ -130,8 +131,7 @@ void Client::take(Request request) {
     if (found == documents.end()) return;
     if (method != methods.end())
         return queue(*found->second, std::move(request), method->second, std::nullopt, true);
-    Params params(request.params, name);
-    if (const auto fault = params.fault()) return answer(request, *fault);
+    if (const auto fault = Params(request.params, name).fault()) return answer(request, *fault);
     Reply reply;
     reply.result["parameters"] = found->second->document->parameters();
     answer(request, reply);
@@ -142,10 +142,10 @@ std::map<int, std::unique_ptr<Client::Served>>::iterator Client::named(Request& 
     const bool number = handle != request.params.end() && handle->is_number_integer() && *handle > 0;
     const auto found = number && *handle <= lastNumber ? documents.find(handle->get<int>()) : documents.end();
     if (found == documents.end())
-        answer(request,
-               Fault(kWrongParameters,
-                     request.method + ": \"document\" is the number that open answered; " +
-                         (number ? "there is none " + handle->dump() + ", or it was closed" : "give it")));
+        answer(request, Fault(kWrongParameters,
+                              "\"document\" of " + request.method + " is the number that open answered" +
+                                  (number ? ", and there is none " + handle->dump() + ", or it was closed"
+                                          : ": give it")));
     else
         request.params.erase("document");
     return found;
@@ -208,6 +208,7 @@ Answer Client::work(Served& served, Document::Method method, Task& task) {
 void Client::close(Request request) {
     const auto found = named(request);
     if (found == documents.end()) return;
+    if (const auto fault = Params(request.params, request.method).fault()) return answer(request, *fault);
     Served& served = *closing.emplace_back(std::move(found->second));
     documents.erase(found);
     served.queue.add([this, &served, request = std::move(request)] {

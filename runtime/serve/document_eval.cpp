@@ -41,10 +41,12 @@ bool takePoints(const std::string& bytes, std::vector<Point>& points) {
     return true;
 }
 
-/// Those of the request's one blob.
+/// Those of the request's one blob, whose shape, if it is given, is that of a list of points.
 bool readPoints(const Request& request, std::vector<Point>& points) {
     if (request.blobs.size() != 1 || request.coming[0].name != "points") return false;
-    const std::string& type = request.coming[0].type;
+    const auto& [name, type, shape, bytes] = request.coming[0];
+    const std::size_t size = type == "f32" ? 4 : 8;
+    if (!shape.is_null() && shape != Json::array({bytes / (3 * size), 3})) return false;
     return type == "f32" ? takePoints<float>(request.blobs[0], points)
                          : type == "f64" && takePoints<double>(request.blobs[0], points);
 }
@@ -100,9 +102,13 @@ std::variant<const Tape*, Fault> Document::field(Task& task) {
 Answer Document::eval(Params& params, Task& task) {
     const bool gradient = params.flag("gradient", false);
     std::vector<Point> points;
-    const bool blob = !task.request.blobs.empty();
-    if (blob ? !readPoints(task.request, points) : !readPoints(params.any("points"), points))
-        params.refuse("points", "is an array of [x, y, z], or a blob of that name of f32 or f64");
+    const bool blob = params.any("blobs");
+    const Json* const given = params.any("points");
+    if (blob && given)
+        params.refuse("points", "is given twice, as an array and as a blob: leave one out");
+    else if (blob ? !readPoints(task.request, points) : !readPoints(given, points))
+        params.refuse("points", "is an array of [x, y, z], " + std::to_string(kMostListed) +
+                                    " at most, or a blob of that name of f32 or f64, of the shape [n, 3]");
     if (std::optional<Fault> fault = params.fault()) return *fault;
     const std::variant<const Tape*, Fault> found = field(task);
     if (const Fault* fault = std::get_if<Fault>(&found)) return *fault;

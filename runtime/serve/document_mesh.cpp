@@ -164,6 +164,7 @@ Answer Document::exportMesh(Params& params, Task& task) {
     const std::vector<std::string> outputs = wishedPaths(wish, path);
     if (const Done kept = checkReplacesNone(filesRead(graph()), outputs); !kept) return Fault(kept.error());
     if (const Done distinct = checkDistinct(graph().path, outputs); !distinct) return Fault(distinct.error());
+    if (const Done there = checkCanBeWritten(outputs); !there) return Fault(there.error());
 
     now = &task;
     task.progress("compile", 0);

@@ -35,8 +35,8 @@ Camera cameraFrom(const std::string& side, std::span<const gpu::MeshVertex> poin
 
 Answer Document::picture(Params& params, Task& task) {
     PictureWish wish;
-    wish.width = params.whole("width", 640, 1, kMostPictureSide);
-    wish.height = params.whole("height", 360, 1, kMostPictureSide);
+    wish.width = params.whole("width", 640, kLeastPictureSide, kMostPictureSide);
+    wish.height = params.whole("height", 360, kLeastPictureSide, kMostPictureSide);
     wish.samples = params.whole("samples", 1, 1, kMostSamples);
     const std::string view = params.oneOf("view", renderViews(), "picture");
     wish.view = uint32_t(std::ranges::find(renderViews(), view) - renderViews().begin());
@@ -51,6 +51,7 @@ Answer Document::picture(Params& params, Task& task) {
     const Json* camera = params.any("camera");
     Result<Scene> seen = readScene(camera ? Json{{"camera", *camera}} : Json(nullptr));
     if (!seen) params.refuse("camera", "is none: " + seen.error().message);
+    if (camera && !from.empty()) params.refuse("from", "goes without a camera: leave one of them out");
     if (const Done fits = checkPictureSize(wish.width, wish.height); !fits)
         params.refuse("width", "and \"height\": " + fits.error().message);
     if (draft && wish.view != RENDER_PICTURE)
@@ -60,7 +61,7 @@ Answer Document::picture(Params& params, Task& task) {
     RenderOptions render = renderOptions(wish, *player);
     if (quality == "live") render.primary = Primary::measured;
     render.scene.camera = seen->camera;
-    if (!from.empty() && !camera) {
+    if (!from.empty()) {
         const auto points = player->outline();
         if (!points) return Fault(points.error());
         if (!points->empty())

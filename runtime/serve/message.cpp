@@ -1,5 +1,7 @@
 #include "runtime/serve/message.h"
 
+#include <algorithm>
+
 #include "graph/document/json_tokens.h"
 
 namespace fw::serve {
@@ -8,12 +10,13 @@ namespace {
 
 bool isId(const Json& id) { return id.is_string() || id.is_number(); }
 
-/// The blobs that a message announces in its parameters; false if they are not as they should be.
+/// The blobs that a message announces in its parameters, and how many bytes follow it in any case; false if
+/// they are not as they should be.
 bool readComing(const Json& params, std::vector<ComingBlob>& coming, std::size_t& bytes) {
     const auto list = params.find("blobs");
     if (list == params.end()) return true;
-    if (!list->is_array() || list->size() > kMostBlobs) return false;
-    bool sound = true;
+    if (!list->is_array()) return false;
+    bool sound = list->size() <= kMostBlobs;
     for (const Json& blob : *list) {
         const auto word = [&](const char* key) -> std::string {
             const auto found = blob.is_object() ? blob.find(key) : blob.end();
@@ -25,9 +28,24 @@ bool readComing(const Json& params, std::vector<ComingBlob>& coming, std::size_t
         const std::size_t count = known ? size->get<std::size_t>() : 0;
         sound = sound && known && !word("name").empty();
         bytes = count > SIZE_MAX - bytes ? SIZE_MAX : bytes + count;
-        coming.push_back({word("name"), word("type"), count});
+        if (sound) coming.push_back({word("name"), word("type"), blob.value("shape", Json()), count});
     }
     return sound;
+}
+
+/// Whether each bracket and quote in it is closed.
+bool isWhole(std::string_view text) {
+    const auto count = [&](char c) { return std::ranges::count(text, c); };
+    return count('(') == count(')') && count('[') == count(']') && count('{') == count('}') &&
+           count('"') % 2 == 0;
+}
+
+/// What stands behind the last colon that is no part of an example in it.
+std::string remedyIn(const std::string& message) {
+    for (std::size_t colon = message.rfind(": "); colon != std::string::npos && colon > 0;
+         colon = message.rfind(": ", colon - 1))
+        if (isWhole(std::string_view(message).substr(colon + 2))) return message.substr(colon + 2);
+    return {};
 }
 
 }  // namespace
@@ -36,7 +54,7 @@ std::variant<Request, NoRequest> readRequest(std::string_view line) {
     const auto refused = [](Json id, int code, std::string message, std::size_t coming = 0) {
         return NoRequest{std::move(id), Fault(code, std::move(message)), coming};
     };
-    const Result<JsonTokens> tokens = tokenize(line, "");
+    const Result<JsonTokens> tokens = tokenize(line, "", {.what = "message", .most = kMostMessageBytes});
     if (!tokens) {
         NoRequest none = refused(nullptr, kNoJson, tokens.error().message);
         none.fault.error.line = tokens.error().line, none.fault.error.column = tokens.error().column;
@@ -49,17 +67,17 @@ std::variant<Request, NoRequest> readRequest(std::string_view line) {
     if (!json.is_object())
         return refused(nullptr, kNoRequest, "a message is an object: {\"jsonrpc\": \"2.0\", …}");
     Request request;
-    if (const auto id = json.find("id"); id != json.end()) {
-        if (!isId(*id)) return refused(nullptr, kNoRequest, "an id is a number or a text");
-        request.id = *id, request.answered = true;
-    }
     std::size_t coming = 0;
     if (const auto none = json.find("params"); none != json.end() && none->is_null()) json.erase(none);
     const auto params = json.find("params");
     const bool known = params == json.end() || params->is_object();
     const bool blobs = params == json.end() || !known || readComing(*params, request.coming, coming);
+    if (const auto id = json.find("id"); id != json.end()) {
+        if (!isId(*id)) return refused(nullptr, kNoRequest, "an id is a number or a text", coming);
+        request.id = *id, request.answered = true;
+    }
     if (const auto version = json.find("jsonrpc"); version == json.end() || *version != "2.0")
-        return refused(request.id, kNoRequest, "a message says \"jsonrpc\": \"2.0\"", coming);
+        return refused(request.id, kNoRequest, "a message is of \"jsonrpc\" \"2.0\", and says so", coming);
     const auto method = json.find("method");
     if (method == json.end() || !method->is_string())
         return refused(request.id, kNoRequest, "a request says its \"method\"", coming);
@@ -91,8 +109,7 @@ Json findingJson(const Error& error) {
     const auto place = [&](const char* key, int value) {
         if (value > 0) json[key] = value;
     };
-    if (const std::size_t colon = error.message.rfind(": "); colon != std::string::npos)
-        text("remedy", error.message.substr(colon + 2));
+    text("remedy", remedyIn(error.message));
     text("file", error.file), text("node", error.node), text("input", error.input);
     place("line", error.line), place("column", error.column);
     place("codeLine", error.codeLine), place("codeColumn", error.codeColumn);

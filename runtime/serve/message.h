@@ -82,6 +82,7 @@ using Answer = std::variant<Reply, Fault>;
 /// What a request announces of a blob that follows it.
 struct ComingBlob {
     std::string name, type;
+    Json shape = nullptr;  ///< as it is given
     std::size_t bytes = 0;
 };
 
@@ -111,7 +112,8 @@ std::string answerLine(const Json& id, const Answer& answer);
 std::string notificationLine(const char* method, Json params);
 
 /// {"severity", "message", "remedy", "file", "node", "input", "line", "column", "codeLine", "codeColumn"}:
-/// what is known of it. The remedy is what the message says behind its last colon.
+/// what is known of it. The remedy is what the message says behind its last colon, those within brackets and
+/// quotes aside.
 Json findingJson(const Error& error);
 Json findingsJson(const std::vector<Error>& findings);
 

@@ -14,11 +14,11 @@ const Json* Params::any(const char* name) {
 }
 
 void Params::refuse(const char* name, const std::string& why) {
-    if (!first) first = Fault(kWrongParameters, method + ": \"" + name + "\" " + why);
+    if (!first) first = Fault(kWrongParameters, "\"" + std::string(name) + "\" of " + method + " " + why);
 }
 
 void Params::need(const char* name) {
-    if (!object.contains(name)) refuse(name, "is missing: give it");
+    if (!any(name)) refuse(name, "is missing: give it");
 }
 
 double Params::number(const char* name, double otherwise, double least, double greatest) {
@@ -48,8 +48,9 @@ bool Params::flag(const char* name, bool otherwise) {
 std::string Params::text(const char* name, std::string otherwise) {
     const Json* value = any(name);
     if (!value) return otherwise;
-    if (value->is_string()) return value->get<std::string>();
-    refuse(name, "is a text");
+    if (value->is_string() && value->get_ref<const std::string&>().find('\0') == std::string::npos)
+        return value->get<std::string>();
+    refuse(name, value->is_string() ? "has a NUL character in it: leave that out" : "is a text");
     return otherwise;
 }
 
@@ -66,10 +67,10 @@ std::string Params::oneOf(const char* name, std::span<const std::string> words, 
 
 std::optional<Fault> Params::fault() {
     for (const auto& [name, value] : object.items()) {
-        if (first || std::ranges::find(known, name) != known.end()) continue;
+        if (std::ranges::find(known, name) != known.end()) continue;
         const std::string near = nearestName(name, known);
-        first = Fault(kWrongParameters, method + " has no parameter " + inQuotes(name) +
-                                            (near.empty() ? "" : ": did you mean " + inQuotes(near) + "?"));
+        return Fault(kWrongParameters, method + " has no parameter " + inQuotes(name) +
+                                           (near.empty() ? "" : ": did you mean " + inQuotes(near) + "?"));
     }
     return first;
 }

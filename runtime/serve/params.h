@@ -30,13 +30,14 @@ class Params {
     /// A fault of this parameter.
     void refuse(const char* name, const std::string& why);
 
-    /// The first thing that was wrong; that a parameter is there that was not read, too.
+    /// A parameter that was not read, whose name may be why another is missing; else the first thing that was
+    /// wrong.
     std::optional<Fault> fault();
 
   private:
     const Json& object;
     std::string method;
-    std::vector<std::string> known = {"blobs", "_meta"};
+    std::vector<std::string> known = {"_meta"};
     std::optional<Fault> first;
 };
 

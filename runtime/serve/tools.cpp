@@ -52,7 +52,7 @@ std::string assistantInstructions() {
 
 {"fieldwright": 1, "unit": "mm",
  "nodes": [
-  {"id": "body", "type": "box", "inputs": {"half_extents": [20, 10, 20], "radius": 2}},
+  {"id": "body", "type": "box", "inputs": {"half_extents": [20, 10, 20], "rounding": 2}},
   {"id": "hole", "type": "cylinder", "inputs": {"radius": 6, "half_height": 30}},
   {"id": "part", "type": "subtract", "inputs": {"a": {"from": "body"}, "b": {"from": "hole"}}},
   {"id": "painted", "type": "material", "inputs": {"surface": {"from": "part"}, "base_color": [0.8, 0.2, 0.1]}},

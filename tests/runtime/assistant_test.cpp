@@ -130,6 +130,20 @@ TEST_F(Assistant, Models) {
     EXPECT_GT(last, 0.0);
 }
 
+/// What an assistant reads first is what it copies.
+TEST_F(Assistant, TheGraphOfItsInstructionsIsSound) {
+    const std::string text = greet("2025-06-18").result().at("instructions");
+    const std::size_t begin = text.find("{\"fieldwright\"");
+    ASSERT_NE(begin, std::string::npos);
+    const std::string graph = text.substr(begin, text.find("\n\n", begin) - begin);
+    EXPECT_EQ(said("write_graph", {{"path", "lamp.field.json"}, {"graph", graph}}),
+              "Written to lamp.field.json. Nothing is wrong with it.");
+    EXPECT_EQ(server->client.ask("tools/call", {{"nmae", "look"}}).code(), -32602);
+    const ServerMessage near = server->client.ask("tools/call", {{"name", "loook"}});
+    EXPECT_NE(near.message().find("no tool 'loook': did you mean 'look'?"), std::string::npos)
+        << near.message();
+}
+
 TEST_F(Assistant, StaysWithinItsRoots) {
     greet("2024-11-05");
     const TempDir outside;

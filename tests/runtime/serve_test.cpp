@@ -273,10 +273,88 @@ TEST_F(Serve, WhatIsNoRequestIsAnsweredAndPassedOver) {
         R"({"jsonrpc": "2.0", "id": 5, "method": "nothing", "params": {"blobs": [{"name": "a", "bytes": 3}]}})");
     client.sendBytes("abc");
     EXPECT_EQ(client.next().code(), -32601);
+    client.sendLine(
+        R"({"jsonrpc": "2.0", "id": {}, "method": "version", "params": {"blobs": [{"name": "a", "bytes": 3}]}})");
+    client.sendBytes("abc");
+    EXPECT_EQ(client.next().code(), -32600);
+    ServedJson many = ServedJson::array();
+    for (int i = 0; i < 17; ++i) many.push_back({{"name", std::to_string(i)}, {"type", "u8"}, {"bytes", 1}});
+    client.sendLine(
+        ServedJson{{"jsonrpc", "2.0"}, {"id", 6}, {"method", "version"}, {"params", {{"blobs", many}}}}
+            .dump());
+    client.sendBytes(std::string(17, 'x'));
+    EXPECT_EQ(client.next().code(), -32602);
     client.sendLine(R"({"jsonrpc": "2.0", "method": "version"})");  // a notification has no answer
     client.sendLine("");
     EXPECT_EQ(client.ask("version").result().at("name"), "fieldwright");
     EXPECT_GT(client.ask("nodes").result().at("nodes").size(), 50u);
+}
+
+TEST_F(Serve, WhatIsNoParameterIsRefused) {
+    ServerProcess server({}, folder.folder.string());
+    ServerClient& client = server.client;
+    const int ball = client.open("ball.field.json");
+    const auto refused = [&](const std::string& method, ServedJson params, const char* part,
+                             const char* remedy = "", int code = -32602) {
+        if (method != "open" && method != "version") params["document"] = ball;
+        const ServerMessage message = client.ask(method, params);
+        ASSERT_TRUE(message.failed()) << method << params;
+        EXPECT_EQ(message.code(), code);
+        EXPECT_NE(message.message().find(part), std::string::npos) << message.message();
+        EXPECT_EQ(message.json.at("error").at("data").value("remedy", ""), remedy) << message.message();
+    };
+    refused("open", {{"paht", "ball.field.json"}}, "no parameter 'paht'", "did you mean 'path'?");
+    refused("open", {{"path", std::string("ball.field.json\0x", 17)}}, "NUL", "leave that out");
+    refused("open", {{"path", 1}}, "is a text");
+    refused("open", {{"graph", ServedJson::object()}}, "begins with {\"fieldwright\": 1, …}",
+            "its object has no \"fieldwright\"; a graph begins with {\"fieldwright\": 1, …}", -32000);
+    refused("version", {{"x", 1}}, "no parameter 'x'");
+    refused("close", {{"x", 1}}, "no parameter 'x'");
+    refused("time", {{"seconds", nullptr}}, "is missing", "give it");
+    refused("set", {{"values", ServedJson::array()}}, "is an object", "{\"name\": number, …}");
+    refused("mesh", {{"resolution", 0}}, "from 1 to 1024");
+    refused("picture", {{"width", 1}}, "from 16 to 8192");
+    refused("picture", {{"from", "top"}, {"camera", {{"position", {0, 0, 5}}}}}, "without a camera",
+            "leave one of them out");
+    // A blob that the method does not take, points twice, and points that lie otherwise.
+    const std::string bytes(48, '\0');
+    EXPECT_EQ(client.ask("mesh", {{"document", ball}}, {{"points", {"f64", bytes}}}).code(), -32602);
+    EXPECT_EQ(client.ask("eval", {{"document", ball}, {"points", {{0, 0, 0}}}}, {{"points", {"f64", bytes}}})
+                  .code(),
+              -32602);
+    for (const auto& [shape, fits] : {std::pair(ServedJson{2, 3}, true), std::pair(ServedJson{3, 2}, false),
+                                      std::pair(ServedJson{6}, false), std::pair(ServedJson("a"), false)}) {
+        const ServedJson blob = {{"name", "points"}, {"type", "f64"}, {"shape", shape}, {"bytes", 48}};
+        client.sendLine(ServedJson{{"jsonrpc", "2.0"},
+                                   {"id", 100},
+                                   {"method", "eval"},
+                                   {"params", {{"document", ball}, {"blobs", ServedJson::array({blob})}}}}
+                            .dump());
+        client.sendBytes(bytes);
+        EXPECT_EQ(client.answer(100).failed(), !fits) << shape;
+    }
+    // A line may be longer than a graph file.
+    const ServerMessage large = client.ask("open", {{"graph", std::string(20 << 20, 'a')}});
+    EXPECT_EQ(large.code(), -32000);
+    EXPECT_NE(large.message().find("larger than 16 MiB"), std::string::npos) << large.message();
+    EXPECT_FALSE(client.ask("mesh", {{"document", ball}}).failed());
+}
+
+TEST_F(Serve, AnExportThatCannotBeWrittenIsNotMadeFirst) {
+    ServerProcess server({}, folder.folder.string());
+    ServerClient& client = server.client;
+    const int ball = client.open("ball.field.json");
+    std::filesystem::create_directory(folder.folder / "folder.stl");
+    std::filesystem::create_symlink("nowhere/x.stl", folder.folder / "link.stl");
+    for (const auto& [path, why] : {std::pair("folder.stl", "it is a folder"), std::pair("link.stl", "link"),
+                                    std::pair("missing/a.stl", "folder")}) {
+        const ServerMessage message = client.ask("export", {{"document", ball}, {"path", path}});
+        EXPECT_EQ(message.code(), -32000) << path;
+        EXPECT_NE(message.message().find(why), std::string::npos) << message.message();
+    }
+    EXPECT_TRUE(client.progress.empty()) << client.progress.front().json;
+    EXPECT_FALSE(client.ask("export", {{"document", ball}, {"path", "ball.stl"}}).failed());
+    EXPECT_FALSE(client.progress.empty());
 }
 
 TEST_F(Serve, SaysWhatItsSchemaSays) {

@@ -477,7 +477,7 @@ TEST_F(TilesCommand, AFullQuotaLeavesNothing) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
     test::writeText(folder.path("b.part.tiles"), "a file in the way");
     expectRefusal(runCommand(part("b.part")), 3, {"b.part.tiles: error", "folder for the tiles"});
-    expectRefusal(runCommand(part("none/b.part")), 3, {"none/b.part.tiles: error", "folder for the tiles"});
+    expectRefusal(runCommand(part("none/b.part")), 3, {"none/b.part: error", "cannot create"});
 }
 
 TEST_F(TilesCommand, AreTakenAboveAThousandCellsWhereTheyCanBe) {
