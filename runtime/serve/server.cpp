@@ -77,23 +77,24 @@ Result<int> listenAt(const std::string& path) {
     if (listener < 0) return systemProblem("no socket can be made", path);
     const mode_t before = ::umask(0177);  // for its owner alone
     int bound = ::bind(listener, at, sizeof address);
+    Error problem{.file = path};
     if (bound != 0 && errno == EADDRINUSE) {
         struct stat status {};
         const Descriptor other(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
-        const bool isSocket = ::lstat(path.c_str(), &status) == 0 && S_ISSOCK(status.st_mode);
-        if (isSocket && ::connect(other.number, at, sizeof address) != 0 && errno == ECONNREFUSED) {
+        if (::lstat(path.c_str(), &status) != 0 || !S_ISSOCK(status.st_mode)) {
+            problem.message = "a file is there that is no socket: choose another path";
+        } else if (::connect(other.number, at, sizeof address) == 0) {
+            problem.message = "another server listens there: choose another path, or end that one";
+        } else if (errno == ECONNREFUSED) {
             ::unlink(path.c_str());
             bound = ::bind(listener, at, sizeof address);
-        } else {
-            errno = EADDRINUSE;
         }
     }
-    const int cause = errno;
     ::umask(before);
     if (bound == 0 && ::listen(listener, int(kMostClients)) == 0) return listener;
+    if (problem.message.empty()) problem = systemProblem("no socket can be made there", path);
     ::close(listener);
-    errno = cause;
-    return systemProblem("no socket can be made there", path);
+    return problem;
 }
 
 /// One client of a socket, on a thread of its own.

@@ -567,11 +567,18 @@ TEST_F(Serve, TakesTheSocketOfOneThatWasKilled) {
         ServerProcess killed({"--socket", path}, folder.folder.string());
         ServerProcess::connect(path);
         ServerProcess second({"--socket", path}, folder.folder.string());
-        EXPECT_EQ(second.wait(), 2) << "one listens there";
+        EXPECT_EQ(second.wait(), 2);
+        EXPECT_NE(second.errors().find("another server listens there"), std::string::npos) << second.errors();
     }
     ASSERT_TRUE(std::filesystem::exists(path));
     ServerProcess server({"--socket", path}, folder.folder.string());
     EXPECT_FALSE(ServerProcess::connect(path).ask("version").failed());
+
+    test::writeText(folder.path("file"), "kept");
+    ServerProcess third({"--socket", folder.path("file")}, folder.folder.string());
+    EXPECT_EQ(third.wait(), 2);
+    EXPECT_NE(third.errors().find("choose another path"), std::string::npos) << third.errors();
+    EXPECT_EQ(test::readText(folder.path("file")), "kept");
 }
 
 TEST_F(Serve, AsksNothingOfADocumentThatDidNotOpen) {
