@@ -214,6 +214,7 @@ Result<ParticleSequencePtr> readParticleSequence(const std::string& graphPath, c
     const std::optional<NumberedName> parts = partsOfSequence(path);
     if (!parts) return fileProblem(path, kParticleFile, "is no sequence: write #### where its number is");
     if (!endsAs(kParticleFile, path)) return wrongEnding(path, kParticleFile);
+    if (const Done inside = checkAssetPlace(graphPath, path, kParticleFile); !inside) return inside.error();
     ParticleSequence made{
         .graphPath = graphPath, .before = parts->before, .after = parts->after, .digits = parts->digits};
     const fs::path within = parts->before.ends_with('/') || parts->before.empty()

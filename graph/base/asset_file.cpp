@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The file that the path leads to, symbolic links followed. It may not exist.
+/// The file that the path leads to, symbolic links followed. It may not exist. Errors: it lies elsewhere.
 Result<std::string> locate(const std::string& owner, const std::string& path, const FileKind& kind) {
     const auto problem = [&](const std::string& what) { return fileProblem(path, kind, what); };
     if (path.find('\0') != std::string::npos) return problem("has a NUL byte in its path: remove it");
@@ -26,12 +26,12 @@ Result<std::string> locate(const std::string& owner, const std::string& path, co
     if (failure) return problem("cannot be looked up: " + failure.message());
     const fs::path target = fs::weakly_canonical(root / path, failure);
     if (failure) return problem("cannot be looked up: " + failure.message());
-    if (kind.apart) return target.string();
     const fs::path inside = target.lexically_relative(root);
-    if (fs::path(path).is_absolute() || inside.empty() || *inside.begin() == "..")
+    if (!kind.apart && (fs::path(path).is_absolute() || inside.empty() || *inside.begin() == ".."))
         return problem(
             "lies outside the folder of the file that names it: move it there and write its path from "
             "that file");
+    if (const Done open = checkMayRead(target.string()); !open) return problem(open.error().message);
     return target.string();
 }
 
@@ -61,11 +61,16 @@ Result<std::string> Asset::read() const {
     return bytes;
 }
 
+Done checkAssetPlace(const std::string& owner, const std::string& path, const FileKind& kind) {
+    const Result<std::string> place = locate(owner, path, kind);
+    if (!place) return place.error();
+    return done();
+}
+
 Result<Asset> openAsset(const std::string& owner, const std::string& path, const FileKind& kind) {
     const auto problem = [&](const std::string& what) { return fileProblem(path, kind, what); };
     Result<std::string> file = locate(owner, path, kind);
     if (!file) return file.error();
-    if (const Done inside = checkMayRead(*file); !inside) return problem(inside.error().message);
     // Not waiting for whoever writes to a pipe.
     const int descriptor = ::open(file->c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     const int failure = errno;

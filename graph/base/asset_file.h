@@ -38,6 +38,9 @@ class Asset {
 /// be read or is too large.
 Result<Asset> openAsset(const std::string& owner, const std::string& path, const FileKind& kind);
 
+/// Errors: that path leads to no place in that folder's tree, be there a file or not.
+Done checkAssetPlace(const std::string& owner, const std::string& path, const FileKind& kind);
+
 /// What make(bytes, absolute path) gives for the file, a Result of a shared pointer. While somebody holds
 /// what was made of a file, and the file was not changed, it is given again. Errors: as openAsset(),
 /// Asset::read() and `make`.

@@ -233,6 +233,10 @@ Tape makeTape(const Ir& ir, std::span<const IrId> roots, std::span<const double>
         }
     });
     pool->floats.assign(pool->doubles.begin(), pool->doubles.end());
+    if (!pool->layers.empty()) {
+        pool->images = ir.images(), pool->volumes = ir.volumes();
+        pool->outlines = ir.outlines(), pool->splines = ir.splines();
+    }
     Tape tape{.numbers = std::move(pool)};
     std::vector<uint32_t> values, registers;
     for (IrId root : roots) values.push_back(names[root]);

@@ -19,8 +19,9 @@
 // steps that z does not move come first and keep their registers, so that planes of a grid pay for the rest
 // alone; and what is decided is renamed forwards before registers are given anew, so no step only copies.
 //
-// Lifetime: a Tape is a value; it shares its numbers with those made from it, and refers to the Ir's images
-// and volumes. A TapeMachine belongs to one thread, and serves any tape.
+// Lifetime: a Tape is a value; it shares its numbers with those made from it, and keeps the images, volumes,
+// outlines and splines that it samples: the Ir may go. A TapeMachine belongs to one thread, and serves any
+// tape.
 #pragma once
 
 #include <array>
@@ -48,6 +49,11 @@ struct TapeNumbers {
     std::vector<double> doubles;
     std::vector<float> floats;  ///< the same
     std::vector<SampledLayer> layers;
+    // what these are of
+    std::vector<FieldImagePtr> images;
+    std::vector<FieldVolumePtr> volumes;
+    std::vector<OutlinePtr> outlines;
+    std::vector<SplineTablePtr> splines;
 };
 
 struct Tape {

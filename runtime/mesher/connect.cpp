@@ -22,9 +22,10 @@ using gpu::uvec4;
 
 namespace {
 
-// The two functions that do the work are compiled for newer processors too, with all that they call.
+// The two functions that do the work are compiled for newer processors too, with all that they call; which of
+// them it is, is found out before the thread sanitizer is there.
 #define FW_WITHIN [[gnu::always_inline]] inline
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__)
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 #define FW_FOR_PROCESSORS [[gnu::target_clones("default", "arch=x86-64-v3")]]
 #else
 #define FW_FOR_PROCESSORS

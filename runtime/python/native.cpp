@@ -12,9 +12,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <future>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -29,6 +31,55 @@ namespace fw::python {
 namespace {
 
 constexpr std::chrono::milliseconds kLooksForSignals(50);
+
+/// The calls that work, of which none may when the interpreter ends: it would end their threads within.
+class Calls {
+  public:
+    /// One of them, while it lives. Once the interpreter ends it ends its thread, as SystemExit does.
+    class Call {
+      public:
+        explicit Call(serve::Task& task_) : task(task_) {
+            const std::lock_guard lock(mutex);
+            endThread();
+            tasks.insert(&task);
+        }
+        /// Of what was cancelled for that.
+        void endIfAllEnds() const {
+            const std::lock_guard lock(mutex);
+            endThread();
+        }
+        Call(const Call&) = delete;
+        ~Call() {
+            const std::lock_guard lock(mutex);
+            tasks.erase(&task);
+            gone.notify_all();
+        }
+
+      private:
+        serve::Task& task;
+    };
+
+    /// Cancels all, and waits until they have gone.
+    static void end() {
+        const py::gil_scoped_release released;
+        std::unique_lock lock(mutex);
+        ending = true;
+        for (serve::Task* task : tasks) task->cancelled = true;
+        gone.wait(lock, [] { return tasks.empty(); });
+    }
+
+  private:
+    static void endThread() {
+        if (!ending) return;
+        PyErr_SetNone(PyExc_SystemExit);
+        throw py::error_already_set();
+    }
+
+    static inline std::mutex mutex;
+    static inline std::condition_variable gone;
+    static inline std::set<serve::Task*> tasks;
+    static inline bool ending = false;
+};
 
 /// The class fieldwright.Error, made by the package from what there is of a fault.
 void raise(const serve::Fault& fault) {
@@ -72,7 +123,9 @@ class Document {
             std::ranges::find(methods, method, &std::pair<std::string, serve::Document::Method>::first);
         if (found == methods.end() && method != "open") throw py::value_error("no method " + method);
         const serve::Document::Method asked = found != methods.end() ? found->second : &serve::Document::open;
-        const Json given = Json::parse(params);
+        const Json given = Json::parse(params, nullptr, false);
+        if (given.is_discarded())
+            throw py::value_error(method + ": a number is beyond double precision, or a text is not UTF-8");
         serve::Task task;
         serve::Answer answer = worked(task, [&]() -> serve::Answer {
             serve::Params read(given, method);
@@ -125,9 +178,12 @@ class Document {
   private:
     /// Does work in a thread of its own, one at a time, while this one waits without the interpreter's lock.
     template <class Work>
-    auto worked(serve::Task& task, const Work& work) -> decltype(work()) {
-        auto done = std::async(std::launch::async, [&] {
-            const std::lock_guard lock(*one);
+    serve::Answer worked(serve::Task& task, const Work& work) {
+        const Calls::Call call(task);
+        auto done = std::async(std::launch::async, [&]() -> serve::Answer {
+            std::unique_lock lock(*one, std::defer_lock);
+            while (!lock.try_lock_for(kLooksForSignals))
+                if (task.cancelled) return serve::cancelledFault();
             return work();
         });
         bool interrupted = false;
@@ -139,6 +195,7 @@ class Document {
             if (!interrupted && PyErr_CheckSignals() != 0) interrupted = task.cancelled = true;
         }
         if (interrupted) throw py::error_already_set();
+        call.endIfAllEnds();
         return done.get();
     }
     template <class Work>
@@ -155,7 +212,7 @@ class Document {
         if (const serve::Fault* fault = std::get_if<serve::Fault>(&answer)) raise(*fault);
     }
 
-    std::unique_ptr<std::mutex> one = std::make_unique<std::mutex>();
+    std::unique_ptr<std::timed_mutex> one = std::make_unique<std::timed_mutex>();
     serve::Document document;
 };
 
@@ -164,6 +221,13 @@ std::string canonical(const std::string& text, const std::string& path) {
     const Result<Graph> graph = parseGraph(text, path, nullptr);
     if (!graph) raise(graph.error());
     return writeGraph(*graph);
+}
+
+/// Writes the graph of this text as the editor does: the file is there whole, or as it was.
+void saveText(const std::string& text, const std::string& from, const std::string& path) {
+    const Result<Graph> graph = parseGraph(text, from, nullptr);
+    if (!graph) raise(graph.error());
+    if (const Done saved = saveGraph(*graph, path); !saved) raise(saved.error());
 }
 
 void savePng(const py::array_t<uint8_t, py::array::c_style | py::array::forcecast>& pixels,
@@ -188,6 +252,8 @@ PYBIND11_MODULE(_native, module) {
     module.attr("version") = FIELDWRIGHT_VERSION;
     module.def("nodes", &fw::nodesJson);
     module.def("canonical", &fw::python::canonical);
+    module.def("save_text", &fw::python::saveText);
+    module.def("end", &fw::python::Calls::end);
     module.def("save_png", &fw::python::savePng);
     py::class_<Document>(module, "Document")
         .def(py::init<std::string>())

@@ -153,7 +153,8 @@ Answer Document::exportMesh(Params& params, Task& task) {
                      .splitMaterials = params.flag("splitMaterials", false),
                      .textures = texturesOf(params),
                      .lods = params.whole("lods", 1, 1, kMostLevels)};
-    wish.placement = {params.text("unit", ""), params.text("up", ""), params.text("for", "")};
+    static const std::vector<std::string> purposes = {"print"};
+    wish.placement = {params.text("unit", ""), params.text("up", ""), params.oneOf("for", purposes, "")};
     CompileOptions compiled;
     compiled.triangles = params.whole("triangles", 0, 0, 1 << 24);
     compiled.byShape = wish.textures.has_value();

@@ -40,8 +40,10 @@ bool isWhole(std::string_view text) {
            count('"') % 2 == 0;
 }
 
-/// What stands behind the last colon that is no part of an example in it.
+/// The name that may be meant, or else what stands behind the last colon that is no part of an example in it.
 std::string remedyIn(const std::string& message) {
+    if (const std::size_t meant = message.rfind("did you mean "); meant != std::string::npos)
+        return message.substr(meant);
     for (std::size_t colon = message.rfind(": "); colon != std::string::npos && colon > 0;
          colon = message.rfind(": ", colon - 1))
         if (isWhole(std::string_view(message).substr(colon + 2))) return message.substr(colon + 2);

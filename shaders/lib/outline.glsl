@@ -71,8 +71,9 @@ vec4 outlineSample(OutlineGrid grid, vec2 p) {
     bool inside = (cell.y >> 31) != 0u;
     float nearest = 1e38;
     OutlineArc best = OutlineArc(vec2(0.0), vec2(0.0), vec2(0.0), 0.0);
-    int k = 0;
-    do {  // each list has an arc; software devices go once more through the body of a `for` than it counts
+    // The condition stands at the head: where it stands at the end, SwiftShader goes on to write in invocations that are
+    // through, from loads that yield nothing.
+    for (int k = 0; k < count; ++k) {
         OutlineArc arc = outlineArc(grid, list, k);
         vec2 q = p - arc.a, r = p - arc.b;
         float side = outlineSide(arc, q), squared = outlineFaces(arc, q) ? side * side : min(dot(q, q), dot(r, r));
@@ -86,7 +87,7 @@ vec4 outlineSample(OutlineGrid grid, vec2 p) {
         bool rises = (arc.a.x <= turn.x) != (arc.b.x <= turn.x) && outlineLeft(arc, known) != atTurn;
         bool runs = (arc.a.y <= p.y) != (arc.b.y <= p.y) && outlineLeft(arc, p) != atTurn;
         inside = inside != (meets && rises != runs);
-    } while (++k < count);
+    }
     float sign_ = inside ? -1.0 : 1.0;
     vec2 q = p - best.a, r = p - best.b;
     if (outlineFaces(best, q)) {  // by its circle or line, which is exact near it

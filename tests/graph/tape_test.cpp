@@ -10,6 +10,7 @@
 #include <random>
 
 #include "graph/compile/compile.h"
+#include "graph/document/json.h"
 #include "tests/support/graph/random_graph.h"
 
 namespace fw::tape_test {
@@ -391,6 +392,27 @@ TEST(Tape, AUnionOfFarShapesShrinksToTheNearOne) {
     EXPECT_EQ(own.steps.size(), 2u);
     EXPECT_EQ(own.registers, 5u);
     EXPECT_GT(whole.steps.size(), 140u);
+}
+
+TEST(Tape, KeepsWhatItSamples) {
+    std::weak_ptr<const SplineTable> table;
+    Tape tape;
+    {
+        const Result<Graph> graph = parseGraph(
+            R"({"fieldwright": 1, "nodes": [{"id": "s", "type": "spline"},
+                {"id": "t", "type": "tube", "inputs": {"spline": {"from": "s"}, "radius": 0.1}},
+                {"id": "out", "type": "output", "inputs": {"surface": {"from": "t"}}}]})",
+            "", nullptr);
+        ASSERT_TRUE(graph) << graph.error().message;
+        const Result<Program> program = compile(*graph);
+        ASSERT_TRUE(program) << program.error().message;
+        ASSERT_EQ(program->ir.splines().size(), 1u);
+        table = program->ir.splines()[0];
+        tape = makeTape(program->ir, program->distance(), program->parameters());
+    }
+    EXPECT_FALSE(table.expired());
+    tape = {};
+    EXPECT_TRUE(table.expired());
 }
 
 TEST(Tape, OnlyWhatTheRootNeedsIsInIt) {

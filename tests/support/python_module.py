@@ -1,9 +1,11 @@
 """The Python module against the command: python_module.py COMMAND SAMPLES BAD. Prints what does not hold; its status says whether all does."""
 
+import copy
 import gc
 import json
 import os
 import pathlib
+import pickle
 import resource
 import subprocess
 import sys
@@ -42,6 +44,24 @@ class Numbers(unittest.TestCase):
             self.assertEqual(gradients.shape, points.shape)
             bounds = graph.bounds(points - 0.1, points + 0.1)
             self.assertTrue(((bounds[:, 0] <= said) & (said <= bounds[:, 1])).all())
+
+    def test_what_a_field_samples_stays_as_long_as_it(self):
+        splash = nodes.emitter(burst=5).particles_to_field(resolution=16, region_min=[-1, -1, -1], region_max=[1, 1, 1])
+        solids = [nodes.spline().tube(radius=0.1), nodes.circle(radius=0.1).sweep(spline=nodes.spline()),
+                  nodes.text(string="ab").extrude(), splash]
+        points = np.random.default_rng(5).uniform(-1, 1, (300, 3))
+        lines = "\n".join(" ".join(map(repr, map(float, p))) for p in points)
+        with tempfile.TemporaryDirectory() as folder:
+            for solid in solids:
+                graph = fw.Graph(solid)
+                graph.save(f"{folder}/a.field.json")
+                said = np.array([float(line) for line in run("eval", f"{folder}/a.field.json", "--points", "-", input=lines).split()])
+                for _ in range(3):
+                    self.assertTrue((graph.eval(points) == said).all(), solid)
+                    rubbish = [np.full(1000 * k, 1e30) for k in range(1, 50)]
+                bounds = graph.bounds(points, points + 0.1)
+                self.assertTrue(((bounds[:, 0] <= said) & (said <= bounds[:, 1])).all(), solid)
+                del rubbish
 
     def test_files_are_those_of_the_command(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -182,6 +202,50 @@ class Faults(unittest.TestCase):
         self.assertEqual(graph.eval(np.zeros((0, 3))).shape, (0,))
 
 
+    def test_what_is_of_another_kind_is_refused(self):
+        solid = nodes.sphere(radius=1)
+        graph = fw.Graph(solid)
+        for other in (None, 1, [solid], "a"):
+            for combine in (lambda: solid | other, lambda: solid & other, lambda: solid - other):
+                with self.assertRaises(TypeError):
+                    combine()
+        for make in (lambda: fw.Graph(), lambda: fw.Graph("a.field.json"), lambda: fw.Graph(nodes.sphere), lambda: fw.Graph(solid, text="{}"),
+                     lambda: list(solid), lambda: pickle.dumps(graph), lambda: copy.copy(graph), lambda: solid.translate(surface=solid),
+                     lambda: fw.Graph(nodes.box(half_extents=[nodes.sphere(), 1, 1])), lambda: fw.Graph(nodes.sphere(radius=float("nan"))),
+                     lambda: graph.eval([["1", "2", "3"]]), lambda: graph.eval([[1j, 0, 0]]), lambda: graph.mesh(resolution=object())):
+            with self.assertRaises(TypeError):
+                make()
+        masked = np.ma.masked_array(np.zeros((2, 3)), mask=[[1, 0, 0], [0, 0, 0]])
+        for make in (lambda: graph.eval(masked), lambda: graph.mesh(resolution=10**400), lambda: graph.mesh(resolution=float("inf")),
+                     lambda: fw.open("a\0b"), lambda: fw.open(b"n\xff.field.json"), lambda: fw.open(""), lambda: nodes.make("spehre"),
+                     lambda: fw.save_png(np.zeros((5, 0, 4), np.uint8), "no.png"), lambda: fw.save_png(np.zeros((4, 4), np.uint8), "a\0.png")):
+            with self.assertRaises(ValueError):
+                make()
+        with self.assertRaises(fw.Error):
+            graph.export("a.stl", for_="nobody")
+        self.assertEqual(fw.Error("x").findings, [])
+
+    def test_what_is_of_numpy_and_of_paths_is_taken(self):
+        graph = fw.Graph(nodes.box(half_extents=[np.float32(1), 1, np.int64(1)]))
+        mesh = graph.mesh(resolution=np.int64(16), normals=np.bool_(False))
+        self.assertFalse(mesh == graph.mesh(resolution=16))
+        graph.time = np.float32(0.5)
+        other = copy.copy(nodes.sphere(radius=1))
+        other.inputs = {"radius": 3}
+        self.assertEqual(fw.Graph(other).eval([0, 0, 0]), -3)
+        part = fw.open(f"{SAMPLES}/csg_part.field.json")
+        self.assertEqual(("drill radius" in part, "nothing" in part, list(part)), (True, False, list(part.parameters)))
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "b.field.json")
+            path.write_text("before")
+            graph.save(os.fsencode(path))
+            self.assertEqual(fw.open(path).text, graph.text)
+            path.write_bytes(b'{"fieldwright": 1,\n "nodes": [{"id": "\x80"}]}')
+            with self.assertRaises(fw.Error) as refused:
+                fw.open(path)
+            self.assertEqual((refused.exception.file, refused.exception.line, refused.exception.column), (str(path), 2, 20))
+
+
 class Threads(unittest.TestCase):
     def test_two_threads_have_the_same_as_one(self):
         paths = [TOWER, f"{SAMPLES}/csg_part.field.json"]
@@ -225,6 +289,27 @@ class Threads(unittest.TestCase):
         child.send_signal(2)
         _, said = child.communicate()
         self.assertIn("KeyboardInterrupt", said)
+
+
+    def test_control_c_ends_who_waits_for_another_thread(self):
+        code = ("import signal, threading, fieldwright as fw\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
+                f"graph = fw.open({TOWER!r})\ngraph.mesh()\n"
+                "threading.Thread(target=lambda: graph.render(1920, 1080, samples=4096), daemon=True).start()\n"
+                "print('runs', flush=True)\ngraph.eval([0, 0, 0])\n")
+        child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        child.stdout.readline()
+        child.send_signal(2)
+        _, said = child.communicate()
+        self.assertIn("KeyboardInterrupt", said)
+        self.assertEqual(child.returncode, -2)
+
+    def test_an_interpreter_that_ends_leaves_no_thread_within(self):
+        code = (f"import threading, numpy as np, fieldwright as fw\ngraph = fw.open({TOWER!r})\npoints = np.zeros((10**6, 3))\n"
+                "begun = threading.Event()\ndef work():\n    while True:\n        begun.set()\n        graph.gradient(points)\n"
+                "threading.Thread(target=work, daemon=True).start()\nbegun.wait()\n")
+        for _ in range(3):
+            ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+            self.assertEqual((ended.returncode, ended.stderr), (0, ""))
 
 
 class Memory(unittest.TestCase):

@@ -14,6 +14,7 @@ Lengths are in the document's unit (metres), +Y is up, angles are in degrees. do
 
 from __future__ import annotations
 
+import atexit
 import json
 import os
 from dataclasses import dataclass, field
@@ -43,6 +44,10 @@ class Error(Exception):
     findings: list[dict[str, Any]]
     """All that was found, errors and warnings, of a graph that cannot be made."""
 
+    def __init__(self, *args: Any):
+        super().__init__(*args)
+        self.findings = []
+
     @classmethod
     def _of(cls, text: str) -> "Error":
         data = json.loads(text)
@@ -54,9 +59,12 @@ class Error(Exception):
         return error
 
 
-@dataclass
+@dataclass(eq=False)
 class Mesh:
-    """Triangles of a surface; arrays are read-only, and share the memory that they were made in."""
+    """Triangles of a surface; arrays are read-only, and share the memory that they were made in.
+
+    There are none where the solid is empty, or thinner than a cell.
+    """
 
     positions: np.ndarray
     """n x 3, float32."""
@@ -77,29 +85,38 @@ class Graph:
     """
 
     def __init__(self, surface: "nodes.Node | None" = None, *, text: str | None = None, path: str | os.PathLike[str] = "",
-                 device: str = ""):
+                 device: str | int = ""):
         """Of a surface or mesh that nodes make; of the text of a graph file; or of a file (as open()).
 
         `path` beside a surface or a text is the file that it would be: files that it names are found from there.
         `device` is the index or a part of the name of the one that meshes and pictures are made on.
         """
-        self._document = _native.Document(device)
-        path = os.fspath(path)
+        path = _path(path)
         if surface is not None:
+            if not isinstance(surface, nodes.Node):
+                raise TypeError("Graph() takes what nodes make; open(path) opens a file, Graph(text=…) takes its text")
+            if text is not None:
+                raise TypeError("Graph() takes a surface or a text, not both")
             text = nodes.text_of(surface)
         if text is None:
-            with _opened(path) as file:
-                text = file.read()
+            if not path:
+                raise TypeError("Graph() takes a surface, a text or a path")
+            text = _read(path)
+        self._document = _native.Document(str(device))
         self._text, self._path, self._time = text, path, 0.0
         self._opened, _ = self._ask("open", graph=text, path=path)
 
     def _ask(self, asked: str, /, **params: Any) -> tuple[dict[str, Any], dict[str, Any]]:
-        given = {name: value for name, value in params.items() if value is not None}
-        result, blobs = self._document.ask(asked, json.dumps(given, allow_nan=False))
+        given = ", ".join(f"{json.dumps(name)}: {_json(name, value)}" for name, value in params.items() if value is not None)
+        result, blobs = self._document.ask(asked, "{" + given + "}")
         return json.loads(result), blobs
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a graph is open, and is not copied: open it again, or take Graph(text=graph.text)")
 
     @property
     def path(self) -> str:
+        """The file that it was opened from, or would be."""
         return self._path
 
     @property
@@ -109,8 +126,7 @@ class Graph:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the graph file; parameters that were set are not in it."""
-        with _opened(path, "w") as file:
-            file.write(self.text)
+        _native.save_text(self._text, self._path, _path(path))
 
     @property
     def parameters(self) -> dict[str, dict[str, Any]]:
@@ -120,13 +136,22 @@ class Graph:
     def set(self, values: Mapping[str, Any] | None = None, **more: Any) -> None:
         """Sets exposed parameters, all or none; names that are no words of Python go into the mapping."""
         wanted = {**(values or {}), **more}
-        self._ask("set", values={name: np.asarray(value, float).tolist() for name, value in wanted.items()})
+        self._ask("set", values={name: _numbers(name, value).tolist() for name, value in wanted.items()})
 
     def __getitem__(self, name: str) -> Any:
+        """The value of an exposed parameter."""
         return self.parameters[name]["value"]
 
     def __setitem__(self, name: str, value: Any) -> None:
+        """As set()."""
         self.set({name: value})
+
+    def __iter__(self) -> Iterator[str]:
+        """The names of the exposed parameters."""
+        return iter(self.parameters)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.parameters
 
     @property
     def time(self) -> float:
@@ -180,57 +205,111 @@ class Graph:
         """What `export --report` tells of the mesh: volume, area, widths, …; with `field` how far it is off the field."""
         return self._ask("measure", resolution=resolution, method=method, field=field)[0]
 
-    def render(self, width: int = 640, height: int = 360, samples: int | None = None, **wishes: Any) -> np.ndarray:
+    def render(self, width: int = 640, height: int = 360, samples: int | None = None, **wishes: Any) -> np.ndarray | bytes:
         """A picture: height x width x 4 of uint8, sRGB and alpha, rows from the top.
 
         Wishes, as `picture` of docs/server.md has them: view, camera, from_ ("front", "three_quarters", …), quality
-        ("auto", "live", "draft"), transparent, resolution, method.
+        ("auto", "live", "draft"), transparent, resolution, method; format "png" gives the bytes of such a file.
         """
-        wishes = {name.rstrip("_"): value for name, value in wishes.items()}
+        wishes = _unreserved(wishes)
         return self._ask("picture", width=width, height=height, samples=samples, **wishes)[1]["picture"]
 
     def export(self, path: str | os.PathLike[str], resolution: int | None = None, method: str | None = None,
                **wishes: Any) -> dict[str, Any]:
         """Writes a mesh file, the same bytes as `fieldwright export`; its ending is the format.
 
-        Wishes, as `export` of docs/server.md has them: manifold, compress, parts, textures, lods, triangles, unit, up, for_.
+        Wishes, as `export` of docs/server.md has them: manifold, compress, parts, splitMaterials, textures, lods, triangles,
+        unit, up, for_.
         """
-        wishes = {name.rstrip("_"): value for name, value in wishes.items()}
-        return self._ask("export", path=os.fspath(path), resolution=resolution, method=method, **wishes)[0]
+        wishes = _unreserved(wishes)
+        return self._ask("export", path=_path(path), resolution=resolution, method=method, **wishes)[0]
 
 
-def open(path: str | os.PathLike[str], *, device: str = "") -> Graph:
+def open(path: str | os.PathLike[str], *, device: str | int = "") -> Graph:
     """Opens a graph file."""
+    if not _path(path):
+        raise ValueError("open: the path is empty")
     return Graph(path=path, device=device)
 
 
 def save_png(pixels: Any, path: str | os.PathLike[str]) -> None:
     """Writes a picture: uint8, height x width x 4 or 3, or x nothing for grey."""
     array = np.asarray(pixels)
-    if array.dtype != np.uint8 or array.ndim not in (2, 3) or (array.ndim == 3 and array.shape[2] not in (3, 4)):
-        raise ValueError("save_png: a picture is uint8, height x width, or that x 3 or x 4")
+    if array.dtype != np.uint8 or array.ndim not in (2, 3) or (array.ndim == 3 and array.shape[2] not in (3, 4)) or not array.size:
+        raise ValueError("save_png: a picture is uint8, height x width, or that x 3 or x 4, and not empty")
     if array.ndim == 2:
         array = np.repeat(array[:, :, None], 3, axis=2)
     if array.shape[2] == 3:
         array = np.concatenate([array, np.full((*array.shape[:2], 1), 255, np.uint8)], axis=2)
-    _native.save_png(array, os.fspath(path))
+    _native.save_png(array, _path(path))
 
 
-def _opened(path: str | os.PathLike[str], mode: str = "r") -> Any:
+def _path(path: str | bytes | os.PathLike[Any]) -> str:
+    text = os.fsdecode(path)
+    if "\0" in text:
+        raise ValueError(f"a path has a NUL character in it: {text!r}")
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"a path is no text of UTF-8: {text!r}") from None
+    return text
+
+
+def _read(path: str) -> str:
     import io
     try:
-        return io.open(path, mode, encoding="utf-8", errors="surrogateescape")
+        with io.open(path, "rb") as file:
+            data = file.read()
+        return data.decode()
     except OSError as fault:
-        error = Error(f"{os.fspath(path)}: error: {fault.strerror}")
-        error.message, error.file, error.findings = str(fault.strerror), os.fspath(path), []
-        raise error from fault
+        place, message, cause = "", str(fault.strerror), fault
+    except UnicodeDecodeError as fault:
+        lines = data[:fault.start].split(b"\n")
+        place, message, cause = f"{len(lines)}:{len(lines[-1]) + 1}:", "the file is not UTF-8: write it in that encoding", fault
+    error = Error(f"{path}:{place} error: {message}")
+    error.message, error.file = message, path
+    if place:
+        error.line, error.column = (int(number) for number in place.split(":")[:2])
+    raise error from cause
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    if isinstance(value, (os.PathLike, bytes)):
+        return _path(value)
+    raise TypeError(f"{value!r} is no number, no text, and no list of those")
+
+
+def _json(name: str, value: Any) -> str:
+    try:
+        return json.dumps(value, allow_nan=False, default=_plain)
+    except (TypeError, ValueError) as fault:
+        text = str(fault)
+        raise type(fault)(f"{name}: " + ("is not finite" if "JSON compliant" in text else text)) from None
+
+
+def _numbers(name: str, value: Any) -> np.ndarray:
+    array = np.asarray(value)
+    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
+        raise ValueError(f"{name}: an array has masked numbers: fill them, or leave them out")
+    if array.size and array.dtype.kind not in "biufO":
+        raise TypeError(f"{name}: {array.dtype} is no type of real numbers")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def _unreserved(wishes: dict[str, Any]) -> dict[str, Any]:
+    """Names that are words of Python are written with a _ behind."""
+    return {{"from_": "from", "for_": "for"}.get(name, name): value for name, value in wishes.items()}
 
 
 def _triples(points: Any) -> tuple[np.ndarray, tuple[int, ...]]:
-    array = np.ascontiguousarray(points, dtype=np.float64)
+    array = _numbers("points", points)
     if array.ndim == 0 or array.shape[-1] != 3:
         raise ValueError("points have three coordinates: the last index of their array goes over x, y and z")
     return array.reshape(-1, 3), array.shape[:-1]
 
+
+atexit.register(_native.end)
 
 from . import nodes  # noqa: E402  (its functions make what Graph takes)

@@ -14,8 +14,10 @@ that docs/nodes.md shows.
 
 from __future__ import annotations
 
+import difflib
 import inspect
 import json
+import os
 from typing import Any, Callable
 
 import numpy as np
@@ -31,24 +33,30 @@ class Node:
 
     def __init__(self, type: str, inputs: dict[str, Any], code: str | None = None, output: str | None = None):
         self.type, self.inputs, self.code, self.output = type, inputs, code, output
-        self._made = self  # the node itself, of one of its values
+        self._whole: Node | None = None  # of one of its values: the node itself
+
+    @property
+    def _made(self) -> "Node":
+        return self._whole or self
 
     def __getitem__(self, output: str) -> "Node":
         names = [entry["name"] for entry in _table[self.type]["outputs"]]
         if output not in names:
             raise KeyError(f"{self.type} has no value {output!r}: it has {', '.join(names) or 'none'}")
         value = Node(self.type, self.inputs, self.code, output)
-        value._made = self._made
+        value._whole = self._made
         return value
 
+    __iter__ = None  # its values have names, not numbers
+
     def __or__(self, other: "Node") -> "Node":
-        return make("union", a=self, b=other)
+        return make("union", a=self, b=other) if isinstance(other, Node) else NotImplemented
 
     def __and__(self, other: "Node") -> "Node":
-        return make("intersect", a=self, b=other)
+        return make("intersect", a=self, b=other) if isinstance(other, Node) else NotImplemented
 
     def __sub__(self, other: "Node") -> "Node":
-        return make("subtract", a=self, b=other)
+        return make("subtract", a=self, b=other) if isinstance(other, Node) else NotImplemented
 
     def __getattr__(self, name: str) -> Callable[..., "Node"]:
         taking = _socket(_table[name]) if name in _table and not name.startswith("_") else None
@@ -56,20 +64,30 @@ class Node:
             raise AttributeError(f"no node type {name!r} takes another node's value first")
 
         def method(**inputs: Any) -> Node:
+            if taking in inputs:
+                raise TypeError(f"{name}() has its {taking!r} already: the node that it is called of")
             return make(name, **{taking: self, **inputs})
 
-        method.__doc__ = globals()[name].__doc__
+        function = globals()[name]
+        signature = inspect.signature(function)
+        method.__name__ = method.__qualname__ = name
+        method.__doc__ = function.__doc__
+        method.__signature__ = signature.replace(
+            parameters=[one for one in signature.parameters.values() if one.name != taking])
         return method
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *(name for name, entry in _table.items() if _socket(entry))]
+        return [*super().__dir__(), *(name for name, entry in _table.items() if _socket(entry) and name != "output")]
 
     def __repr__(self) -> str:
         return f"<{self.type}{'.' + self.output if self.output else ''}>"
 
 
-def make(type: str, code: str | None = None, **inputs: Any) -> Node:
+def make(type: str, code: str | None = None, /, **inputs: Any) -> Node:
     """A node of a type; what is None is left as it is by default."""
+    if type not in _table:
+        near = difflib.get_close_matches(type, _table, 1)
+        raise ValueError(f"there is no node type {type!r}" + (f": did you mean {near[0]!r}?" if near else ""))
     entry = _table[type]
     given = {name: value for name, value in inputs.items() if value is not None}
     known = [one["name"] for one in entry["inputs"]]
@@ -78,6 +96,14 @@ def make(type: str, code: str | None = None, **inputs: Any) -> Node:
             if name not in known:
                 raise TypeError(f"{type}() has no input {name!r}: it has {', '.join(known)}")
     return Node(type, given, code)
+
+
+def _number(given: Any) -> Any:
+    if isinstance(given, (np.generic, np.ndarray)):
+        return given.tolist()
+    if isinstance(given, os.PathLike):
+        return os.fspath(given)
+    raise TypeError
 
 
 def _socket(entry: dict[str, Any]) -> str | None:
@@ -94,13 +120,16 @@ def text_of(result: Node) -> str:
     written: list[dict[str, Any]] = []
     used: dict[str, int] = {}
 
-    def value(given: Any) -> Any:
+    def value(node: Node, name: str, given: Any) -> Any:
         if isinstance(given, Node):
             link = {"from": ids[id(given._made)]}
             return {**link, "output": given.output} if given.output else link
-        if isinstance(given, np.generic) or isinstance(given, np.ndarray):
-            return given.tolist()
-        return list(given) if isinstance(given, tuple) else given
+        if isinstance(given, (list, tuple)) and any(isinstance(one, Node) for one in given):
+            raise TypeError(f"{node.type}: {name!r} is a list with a node in it: give numbers, or one node for all of them")
+        try:
+            return json.loads(json.dumps(given, default=_number, allow_nan=False))
+        except (TypeError, ValueError):
+            raise TypeError(f"{node.type}: {name!r} is {given!r}: no finite number, text or list of those") from None
 
     pending, begun = [result._made], set()
     while pending:  # not by recursion: chains may be long
@@ -117,14 +146,14 @@ def text_of(result: Node) -> str:
             continue
         used[node.type] = used.get(node.type, 0) + 1
         ids[id(node)] = node.type if used[node.type] == 1 else f"{node.type}_{used[node.type]}"
-        entry = {"id": ids[id(node)], "type": node.type, "inputs": {name: value(one) for name, one in node.inputs.items()}}
+        entry = {"id": ids[id(node)], "type": node.type, "inputs": {name: value(node, name, one) for name, one in node.inputs.items()}}
         if node.code is not None:
             entry["code"] = node.code
         written.append(entry)
     if result.type != "output":
         outputs = _table[result.type]["outputs"]
         shown = next((one["type"] for one in outputs if one["name"] == result.output), outputs[0]["type"])
-        written.append({"id": "out", "type": "output", "inputs": {"mesh" if shown == "mesh" else "surface": value(result)}})
+        written.append({"id": "out", "type": "output", "inputs": {"mesh" if shown == "mesh" else "surface": value(result, "", result)}})
     return json.dumps({"fieldwright": 1, "nodes": written})
 
 
@@ -174,12 +203,12 @@ def _stubs() -> str:
         def written(but: str | None) -> str:
             return "".join(f", {one}: {kind} | None = None" for one, kind in arguments.items() if one != but)
         functions.append(f"def {name}({('*' + written(None)) if arguments else ''}) -> Node:\n    {doc}\n")
-        if taking := _socket(entry):
+        if (taking := _socket(entry)) and name != "output":
             rest = written(taking)
             methods.append(f"    def {name}(self{', *' + rest if rest else ''}) -> Node:\n        {doc}\n")
     return ("# Made of the node table.\nfrom __future__ import annotations\nfrom typing import Any\n\nclass Node:\n    type: str\n"
             "    inputs: dict[str, Any]\n    code: str | None\n    output: str | None\n"
             "    def __getitem__(self, output: str) -> Node: ...\n    def __or__(self, other: Node) -> Node: ...\n"
             "    def __and__(self, other: Node) -> Node: ...\n    def __sub__(self, other: Node) -> Node: ...\n"
-            + "".join(methods) + "\ndef make(type: str, code: str | None = None, **inputs: Any) -> Node: ...\n"
+            + "".join(methods) + "\ndef make(type: str, code: str | None = None, /, **inputs: Any) -> Node: ...\n"
             "def text_of(result: Node) -> str: ...\n" + "".join(functions))
