@@ -87,6 +87,9 @@ void expectConstantsAgree(const test::CodeText& code, const Meaning& whole, cons
     const Meaning constant = meaning(code, before);
     if (!constant.value) return;  // an index or a divisor that is now seen to be wrong
     if (constant.value->type != whole.value->type) return;
+    // What remains of a division of 1e52 is noise, and what divides by that may be no number on one side
+    // alone.
+    if (*largest > 1e15 && !largestValue(constant.state.ir, point)) return;
     // Of two numbers that nearly cancel each other their last digits are left: of 1e38 those are 1e22.
     EXPECT_TRUE(near(values, constant.at(point), 1e-14 * *largest))
         << code.text << "\nat " << before << "is " << constant.at(point)[0] << ", not " << values[0];
