@@ -14,6 +14,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <semaphore>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,7 @@ struct DeviceRecord {
     std::atomic<uint64_t> allocated = 0, peak = 0, pipelines = 0, submissions = 0, waits = 0;
     std::shared_ptr<Buffer> written, read;
     std::unique_ptr<Device> sibling, siblingBehind;
+    std::binary_semaphore unused{1};  ///< of a sibling: nobody uses it
 };
 
 /// What its functions err by beyond what intervals allow for anyway: precision.h.

@@ -196,16 +196,25 @@ class FirstRuns {
         std::vector<VkFence> fences = {};
     };
 
+    /// Of the sibling; it may end on another thread than it began on.
+    struct Use {
+        ~Use() {
+            if (of) of->release();
+        }
+        std::binary_semaphore* of = nullptr;
+    };
+
     /// One at a time may use the sibling; who must not wait does without.
     void useSibling() {
         triedSibling = true;
         const Device& other = siblingOf(device, behind);
-        siblingUse = std::unique_lock(other.record->mutex, std::defer_lock);
+        std::binary_semaphore& unused = other.record->unused;
         if (behind)
-            siblingUse.lock();
-        else
-            (void)siblingUse.try_lock();
-        if (siblingUse.owns_lock()) sibling.emplace(other);
+            unused.acquire();
+        else if (!unused.try_acquire())
+            return;
+        use.of = &unused;
+        sibling.emplace(other);
     }
 
     static bool isBuffer(const ShaderBinding& binding) {
@@ -251,7 +260,7 @@ class FirstRuns {
     const Device& device;
     const bool behind;
     bool triedSibling = false;
-    std::unique_lock<std::mutex> siblingUse;
+    Use use;
     std::deque<Pipeline> translated;  // on the sibling
     std::vector<const Pipeline*> later;
     // After the pipelines, as the sibling's: their work ends before those do. None where another thread has
