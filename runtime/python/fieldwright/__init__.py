@@ -273,17 +273,9 @@ def _read(path: str) -> str:
     raise error from cause
 
 
-def _plain(value: Any) -> Any:
-    if isinstance(value, (np.generic, np.ndarray)):
-        return value.tolist()
-    if isinstance(value, (os.PathLike, bytes)):
-        return _path(value)
-    raise TypeError(f"{value!r} is no number, no text, and no list of those")
-
-
 def _json(name: str, value: Any) -> str:
     try:
-        return json.dumps(value, allow_nan=False, default=_plain)
+        return json.dumps(value, allow_nan=False, default=nodes.plain)
     except (TypeError, ValueError) as fault:
         text = str(fault)
         raise type(fault)(f"{name}: " + ("is not finite" if "JSON compliant" in text else text)) from None

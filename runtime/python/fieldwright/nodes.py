@@ -98,12 +98,13 @@ def make(type: str, code: str | None = None, /, **inputs: Any) -> Node:
     return Node(type, given, code)
 
 
-def _number(given: Any) -> Any:
-    if isinstance(given, (np.generic, np.ndarray)):
-        return given.tolist()
-    if isinstance(given, os.PathLike):
-        return os.fspath(given)
-    raise TypeError
+def plain(value: Any) -> Any:
+    """What JSON has for a number or an array of numpy, or for a path."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    raise TypeError(f"{value!r} is no number, no text, and no list of those")
 
 
 def _socket(entry: dict[str, Any]) -> str | None:
@@ -127,7 +128,7 @@ def text_of(result: Node) -> str:
         if isinstance(given, (list, tuple)) and any(isinstance(one, Node) for one in given):
             raise TypeError(f"{node.type}: {name!r} is a list with a node in it: give numbers, or one node for all of them")
         try:
-            return json.loads(json.dumps(given, default=_number, allow_nan=False))
+            return json.loads(json.dumps(given, default=plain, allow_nan=False))
         except (TypeError, ValueError):
             raise TypeError(f"{node.type}: {name!r} is {given!r}: no finite number, text or list of those") from None
 
