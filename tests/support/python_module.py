@@ -279,29 +279,24 @@ class Threads(unittest.TestCase):
         [worker.join() for worker in workers]
         self.assertEqual(faults, [])
 
-    def test_control_c_ends_what_runs(self):
-        # A picture of paths of light that would take minutes.
-        code = ("import signal, fieldwright as fw\nsignal.signal(signal.SIGINT, signal.default_int_handler)  # whoever starts the tests\n"
-                f"graph = fw.open({TOWER!r})\ngraph.mesh()\nprint('runs', flush=True)\n"
-                "graph.render(1920, 1080, samples=4096)\n")
-        child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        child.stdout.readline()
-        child.send_signal(2)
-        _, said = child.communicate()
-        self.assertIn("KeyboardInterrupt", said)
-
-
-    def test_control_c_ends_who_waits_for_another_thread(self):
-        code = ("import signal, threading, fieldwright as fw\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
-                f"graph = fw.open({TOWER!r})\ngraph.mesh()\n"
-                "threading.Thread(target=lambda: graph.render(1920, 1080, samples=4096), daemon=True).start()\n"
-                "print('runs', flush=True)\ngraph.eval([0, 0, 0])\n")
-        child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    def expect_interrupted(self, code):
+        """By SIGINT, once the code has said that it runs."""
+        begin = "import signal, threading, fieldwright as fw\nsignal.signal(signal.SIGINT, signal.default_int_handler)  # whoever starts the tests\n"
+        child = subprocess.Popen([sys.executable, "-c", begin + code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         child.stdout.readline()
         child.send_signal(2)
         _, said = child.communicate()
         self.assertIn("KeyboardInterrupt", said)
         self.assertEqual(child.returncode, -2)
+
+    def test_control_c_ends_what_runs(self):
+        # A picture of paths of light that would take minutes.
+        self.expect_interrupted(f"graph = fw.open({TOWER!r})\ngraph.mesh()\nprint('runs', flush=True)\ngraph.render(1920, 1080, samples=4096)\n")
+
+    def test_control_c_ends_who_waits_for_another_thread(self):
+        self.expect_interrupted(f"graph = fw.open({TOWER!r})\ngraph.mesh()\n"
+                                "threading.Thread(target=lambda: graph.render(1920, 1080, samples=4096), daemon=True).start()\n"
+                                "print('runs', flush=True)\ngraph.eval([0, 0, 0])\n")
 
     def test_an_interpreter_that_ends_leaves_no_thread_within(self):
         code = (f"import threading, numpy as np, fieldwright as fw\ngraph = fw.open({TOWER!r})\npoints = np.zeros((10**6, 3))\n"
