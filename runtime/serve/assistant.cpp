@@ -155,11 +155,9 @@ void Assistant::call(Request request) {
     if (tool == tools.end()) {
         std::vector<std::string> names;
         for (const auto& entry : tools) names.push_back(entry.first);
-        const std::string near = nearestName(name, names);
         return answer(request,
                       Fault(kWrongParameters, "there is no tool " + inQuotes(name) +
-                                                  (near.empty() ? ": there are " + listed(names)
-                                                                : ": did you mean " + inQuotes(near) + "?")));
+                                                  meant(name, names, ": there are " + listed(names))));
     }
     if (!arguments.is_object())
         return answer(request, Fault(kWrongParameters, "tools/call: \"arguments\" is an object"));

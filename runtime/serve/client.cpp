@@ -121,11 +121,8 @@ void Client::take(Request request) {
         std::vector<std::string> names = {"open",   "close",   "parameters", "nodes",
                                           "cancel", "version", "shutdown"};
         for (const auto& [known, does] : methods) names.push_back(known);
-        const std::string near = nearestName(name, names);
-        return answer(request,
-                      Fault(kNoMethod, "there is no method " + inQuotes(name) +
-                                           (near.empty() ? ": there are " + listed(names)
-                                                         : ": did you mean " + inQuotes(near) + "?")));
+        return answer(request, Fault(kNoMethod, "there is no method " + inQuotes(name) +
+                                                    meant(name, names, ": there are " + listed(names))));
     }
     const auto found = named(request);
     if (found == documents.end()) return;

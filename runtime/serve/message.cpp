@@ -96,6 +96,7 @@ std::variant<Request, NoRequest> readRequest(std::string_view line) {
                        coming);
     request.method = method->get<std::string>();
     if (params != json.end()) request.params = std::move(*params);
+    if (request.coming.empty()) request.params.erase("blobs");  // a list of none
     return request;
 }
 

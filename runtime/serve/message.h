@@ -112,8 +112,8 @@ std::string answerLine(const Json& id, const Answer& answer);
 std::string notificationLine(const char* method, Json params);
 
 /// {"severity", "message", "remedy", "file", "node", "input", "line", "column", "codeLine", "codeColumn"}:
-/// what is known of it. The remedy is what the message says behind its last colon, those within brackets and
-/// quotes aside.
+/// what is known of it. The remedy is the name that may be meant, or what the message says behind its last
+/// colon, those within brackets and quotes aside.
 Json findingJson(const Error& error);
 Json findingsJson(const std::vector<Error>& findings);
 

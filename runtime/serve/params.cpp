@@ -7,6 +7,11 @@
 
 namespace fw::serve {
 
+std::string meant(std::string_view name, std::span<const std::string> names, const std::string& otherwise) {
+    const std::string near = nearestName(name, names);
+    return near.empty() ? otherwise : ": did you mean " + inQuotes(near) + "?";
+}
+
 const Json* Params::any(const char* name) {
     known.emplace_back(name);
     const auto found = object.find(name);
@@ -59,18 +64,14 @@ std::string Params::oneOf(const char* name, std::span<const std::string> words, 
     if (!value) return otherwise;
     const std::string word = value->is_string() ? value->get<std::string>() : std::string();
     if (std::ranges::find(words, word) != words.end()) return word;
-    const std::string near = nearestName(word, words);
-    refuse(name, "is one of " + listed({words.begin(), words.end()}) +
-                     (near.empty() ? "" : ": did you mean " + inQuotes(near) + "?"));
+    refuse(name, "is one of " + listed({words.begin(), words.end()}) + meant(word, words));
     return otherwise;
 }
 
 std::optional<Fault> Params::fault() {
     for (const auto& [name, value] : object.items()) {
         if (std::ranges::find(known, name) != known.end()) continue;
-        const std::string near = nearestName(name, known);
-        return Fault(kWrongParameters, method + " has no parameter " + inQuotes(name) +
-                                           (near.empty() ? "" : ": did you mean " + inQuotes(near) + "?"));
+        return Fault(kWrongParameters, method + " has no parameter " + inQuotes(name) + meant(name, known));
     }
     return first;
 }

@@ -6,11 +6,16 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/serve/message.h"
 
 namespace fw::serve {
+
+/// ": did you mean 'x'?", of the nearest of those names, or `otherwise` if none is near.
+std::string meant(std::string_view name, std::span<const std::string> names,
+                  const std::string& otherwise = "");
 
 class Params {
   public:

@@ -316,8 +316,10 @@ TEST_F(Serve, WhatIsNoParameterIsRefused) {
     refused("picture", {{"width", 1}}, "from 16 to 8192");
     refused("picture", {{"from", "top"}, {"camera", {{"position", {0, 0, 5}}}}}, "without a camera",
             "leave one of them out");
-    // A blob that the method does not take, points twice, and points that lie otherwise.
+    // A list of no blobs is none; a blob that the method does not take, points twice, and points that lie
+    // otherwise.
     const std::string bytes(48, '\0');
+    EXPECT_FALSE(client.ask("parameters", {{"document", ball}, {"blobs", ServedJson::array()}}).failed());
     EXPECT_EQ(client.ask("mesh", {{"document", ball}}, {{"points", {"f64", bytes}}}).code(), -32602);
     EXPECT_EQ(client.ask("eval", {{"document", ball}, {"points", {{0, 0, 0}}}}, {{"points", {"f64", bytes}}})
                   .code(),
