@@ -1,39 +1,50 @@
-// Where a solid lies: a box around f < 0, found by interval analysis.
+// The region of a solid: a box that is proven to contain all of f < 0.
 //
-// First each of the six directions is searched for the nearest half-space that is provably empty; this is
-// tight for shapes along the axes. Then an octree drops every cell that is provably outside, which tightens
-// the box around rotated and blended shapes, and finds one where half-spaces prove nothing (a twist mixes
-// coordinates, so over an endless box its interval is everything). Of its cells only those are looked at that
-// the box hangs on, each with a tape of its own (tape.h). Cells that a jump runs through, as those between
-// the copies of a repetition, are looked at side by side (jump_cases.h).
+// 1. The solid is split into the operands of its outermost minimum, and each is bounded on its own by going
+//    backwards through its expression from all of space (box_contractor.h). A ball far away is bounded no
+//    matter how distorted the solid next to it is.
+// 2. A part that this cannot bound is proven empty shell by shell, from kFarthest inwards, by contracting
+//    cells of the shell and by the field's Lipschitz constant.
+// 3. The hull of all parts is refined by intervals over cells (hull_refinement.h).
+//
+// Nothing is known by samples, with one exception: points inside the solid at kFarthest tell "unbounded" from
+// "unproven".
 #pragma once
 
 #include <limits>
 #include <span>
+#include <stop_token>
 
 #include "graph/base/result.h"
 #include "graph/evaluate/evaluate.h"
 
 namespace fw {
 
-enum class Extent : unsigned char { bounded, empty, unbounded };
+enum class Extent : unsigned char {
+    bounded,
+    empty,
+    unbounded,  ///< solid was found beyond half of kFarthest
+    unproven    ///< the search could neither find an end of the solid nor solid beyond it
+};
 
 struct Region {
     Extent extent = Extent::bounded;
-    Box box;  ///< contains the solid, if bounded; not padded
+    /// Contains the solid if it is bounded; not padded. Of an unproven one: contains all of the solid but for
+    /// what lies in `unproven`.
+    Box box;
+    Box unproven;  ///< where nothing is proven, within kFarthest
 };
 
-/// Searches within ±kFarthest metres of the origin. A solid that reaches farther, or repeats without end, is
-/// unbounded. What lies beyond an octree's start is known by samples, all else is proven; so `empty` is a
-/// proof within kFarthest, or within 512 metres where half-spaces prove nothing.
-/// `lipschitz`: of the distance, infinite where it is not known. Intervals of turned shapes are loose; where
-/// they prove nothing soon, so does it, from the values in the middle of cells.
+/// Up to this coordinate solids that nothing else bounds are searched for, in units of the document. Single
+/// precision, in which devices evaluate fields, has no fractions of a tenth beyond.
+inline constexpr double kFarthest = 1048576.0;
+
+/// `lipschitz`: of the distance, infinite where it is not known. `stop`: ends the search soon; the result is
+/// then unproven.
 Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters,
-                  double lipschitz = std::numeric_limits<double>::infinity());
+                  double lipschitz = std::numeric_limits<double>::infinity(), std::stop_token stop = {});
 
-inline constexpr double kFarthest = 16384.0;
-
-/// The least box that has both.
+/// The smallest box that contains both.
 Box joined(const Box& a, const Box& b);
 
 /// The box's longest side; 0 if none has a length.

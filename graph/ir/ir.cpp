@@ -148,6 +148,10 @@ IrId Ir::simplify(Op op, std::span<const IrId> operands) {
             if (a == b) return add(Op::square, a);
             for (int i : {0, 1}) {
                 const IrId other = operands[1 - i];
+                // (x y) y as x y^2: an even power is known to be positive.
+                for (int j : {0, 1})
+                    if (made(i, Op::multiply) && inner(i, j) == other && !isConstant(other))
+                        return add(Op::multiply, inner(i, 1 - j), add(Op::square, other));
                 if (is(i, 0.0)) return constant(0.0);
                 if (is(i, 1.0)) return other;
                 if (is(i, -1.0)) return add(Op::negate, other);

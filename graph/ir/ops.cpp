@@ -78,7 +78,8 @@ constexpr OpInfo row(Op op, const char* name, Arity<arity>, bool boolean, bool c
 }
 
 Interval monotone(double (*f)(double), Interval a, double slack) {
-    const double lo = std::min(f(below(a.lo)), kHuge), hi = f(above(a.hi));
+    // Infinity times no slack would not be a number.
+    const double lo = std::min(f(below(a.lo)), kHuge), hi = std::min(f(above(a.hi)), kHuge);
     return outward(lo - std::abs(lo) * slack, hi + std::abs(hi) * slack);
 }
 Interval exponential(Interval a) {

@@ -40,6 +40,12 @@ vec2 sector(vec2 q, int n) {
     }
     return q;
 }
+float regularPolygon(vec2 p, int n, float apothem) {
+    vec2 q = sector(vec2(p.x, -p.y), n);
+    float rim = q.y - apothem;
+    float d = rim <= 0.0 ? rim : length(vec2(max(q.x - apothem * tan(PI / n), 0.0), rim));
+    return max(d, length(p) * cos(PI / n) - apothem);
+}
 )";
 
 /// chamferMin, stairsMin: the minimum of a and b with the corner between them filled over a width k >= 0, as

@@ -393,10 +393,7 @@ return planes <= 0.0 ? planes : max(planes, min(face, base));)"},
          .outputs = kSurface,
          .exactness = always(kExact),
          .body = std::string(kExtent) + kSector + R"(
-vec2 q = sector(vec2(p.x, -p.y), sides);
-float rim = q.y - apothem;
-float polygon = rim <= 0.0 ? rim : length(vec2(max(q.x - apothem * tan(PI / sides), 0.0), rim));
-return ext2(vec2(polygon, abs(p.z) - half_height));)"},
+return ext2(vec2(regularPolygon(p.xy, sides, apothem), abs(p.z) - half_height));)"},
         {.id = "tetrahedron",
          .label = "Tetrahedron",
          .category = Category::shape,

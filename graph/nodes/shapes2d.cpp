@@ -126,10 +126,8 @@ return max(onEdge ? line * (wanted * found) : wanted * d, bounds.x, bounds.y);)"
                             length("apothem", 0.5, "Distance from the centre to the middle of each side."))},
          .outputs = kSurface,
          .exactness = always(kExact),
-         .body = std::string(kSector) + R"(
-vec2 q = sector(vec2(p.x, -p.y), sides);
-float rim = q.y - apothem;
-return rim <= 0.0 ? rim : length(vec2(max(q.x - apothem * tan(PI / sides), 0.0), rim));)"},
+         .body = std::string(kSector) + "return regularPolygon(p.xy, sides, apothem);"},
+        // The last maximum changes no value; it tells a search for bounds that the star ends.
         {.id = "star",
          .label = "Star",
          .category = Category::shape2d,
@@ -148,7 +146,8 @@ float size = length(along);
 float foot = dot(q - tip, along);
 float line = (along.y * q.x - along.x * (q.y - outer_radius)) / max(size, 1e-12);
 float d = segment(q, tip, notch);
-return 0.0 < size && foot >= 0.0 && foot <= size * size ? -line : (line > 0.0 ? -d : d);)"},
+float star = 0.0 < size && foot >= 0.0 && foot <= size * size ? -line : (line > 0.0 ? -d : d);
+return max(star, length(p.xy) - max(outer_radius, inner_radius));)"},
         {.id = "text",
          .label = "Text",
          .category = Category::shape2d,

@@ -114,6 +114,8 @@ bool ends = capped && !spline_closed(spline);
 return with_distance(swept, ends ? ext2(vec2(d, max(-at.z, at.z - spline_length(spline)))) : d);)",
          .lower = lowerSweep,
          .aliases = {"follow_path", "bend_along"}},
+        // A mean is never below the smaller one: that changes no value, but tells a search for bounds that the
+        // solid lies within both shapes together.
         {.id = "loft",
          .label = "Loft",
          .category = Category::spline,
@@ -129,8 +131,11 @@ return with_distance(swept, ends ? ext2(vec2(d, max(-at.z, at.z - spline_length(
          .body = std::string(kExtent) + R"(
 float t = saturate(p.z / height);
 if (between == "smooth") t = t * t * (3.0 - 2.0 * t);
-blend = mix(bottom(vec3(p.xy, 0.0)), top(vec3(p.xy, 0.0)), t);
-return with_distance(blend, ext2(vec2(blend.distance, max(-p.z, p.z - height))));)"},
+low = bottom(vec3(p.xy, 0.0));
+high = top(vec3(p.xy, 0.0));
+blend = mix(low, high, t);
+float d = max(blend.distance, min(low.distance, high.distance));
+return with_distance(blend, ext2(vec2(d, max(-p.z, p.z - height))));)"},
     };
 }
 

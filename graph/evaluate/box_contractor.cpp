@@ -1,0 +1,351 @@
+#include "graph/evaluate/box_contractor.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "graph/evaluate/region.h"
+
+namespace fw {
+
+namespace {
+
+constexpr int kMaxDepth = 400;    // of nested goals
+constexpr int kMaxRounds = 4;     // forwards and backwards through one cone
+constexpr int kMaxCaseDepth = 3;  // of nested cases
+constexpr std::size_t kMaxReplacements = 4;
+
+double roundedUp(double value) { return value + std::abs(value) * 1e-15; }
+double roundedDown(double value) { return value - std::abs(value) * 1e-15; }
+
+Interval sideOf(const Box& box, std::size_t axis) { return {box.lo[axis], box.hi[axis]}; }
+
+Interval wantedBy(bool above, double level) {
+    return above ? Interval{level, kHuge} : Interval{-kHuge, level};
+}
+
+void joinInto(std::optional<Box>& all, const std::optional<Box>& box) {
+    if (box) all = all ? joined(*all, *box) : *box;
+}
+
+}  // namespace
+
+bool isBounded(const Box& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (!isBounded(sideOf(box, axis))) return false;
+    return true;
+}
+
+BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters)
+    : ir(ir_), everywhere(ir.size()), mayBeNaN(ir.size()), stamps(ir.size()) {
+    for (IrId id = 0; id < ir.size(); ++id) {
+        const IrNode& node = ir[id];
+        current.swap(everywhere);
+        if (id < 3 || node.op == Op::column)
+            current[id] = kEverything;
+        else if (node.op == Op::parameter)
+            current[id] = parameters[std::size_t(node.number)];
+        else if (node.op == Op::constant)
+            current[id] = {node.number, node.number};
+        else
+            current[id] = evaluate(id);
+        if (!std::isfinite(current[id].lo) || !std::isfinite(current[id].hi)) current[id] = kEverything;
+        current.swap(everywhere);
+    }
+    current = everywhere;
+    findUndefined();
+    findRotations();
+    findSplines();
+}
+
+Interval BoxContractor::evaluate(IrId id) const {
+    const IrNode& node = ir[id];
+    Interval operands[kMaxArity];
+    const OpInfo& info = opInfo(node.op);
+    for (int i = 0; i < info.arity; ++i) operands[i] = current[node.operands[std::size_t(i)]];
+    return info.interval(operands, samplesLayer(node.op) ? ir.layer(node) : SampledLayer{});
+}
+
+std::vector<BoxContractor::Part> BoxContractor::parts(IrId root, const Box& within) {
+    std::vector<Part> result;
+    std::vector<IrId> pending{root};
+    while (!pending.empty()) {
+        const IrId id = pending.back();
+        pending.pop_back();
+        const IrNode& node = ir[id];
+        if (node.op == Op::minimum) {
+            pending.insert(pending.end(), {node.operands[1], node.operands[0]});
+        } else if (node.op == Op::multiply && isNumber(node.operands[1]) &&
+                   everywhere[node.operands[1]].lo > 0.0) {
+            pending.push_back(node.operands[0]);
+        } else if (const std::optional<Box> box = contract(id, 0.0, within)) {
+            result.push_back({id, *box});
+        }
+    }
+    return result;
+}
+
+std::optional<Box> BoxContractor::contract(IrId root, double level, const Box& box) {
+    return reach({root, false, level}, box, 0);
+}
+
+BoxContractor::Goal BoxContractor::peeled(Goal goal) const {
+    while (true) {
+        const IrNode& node = ir[goal.id];
+        const IrId a = node.operands[0], b = node.operands[1];
+        const bool firstIsNumber = opInfo(node.op).arity == 2 && isNumber(a),
+                   secondIsNumber = opInfo(node.op).arity == 2 && isNumber(b);
+        Interval level{goal.level, goal.level};
+        bool flips = false;
+        IrId rest = a;
+        if (node.op == Op::negate) {
+            level = -level, flips = true;
+        } else if (node.op == Op::add && (firstIsNumber || secondIsNumber)) {
+            level = level - everywhere[firstIsNumber ? a : b];
+            rest = firstIsNumber ? b : a;
+        } else if (node.op == Op::subtract && secondIsNumber) {
+            level = level + everywhere[b];
+        } else if (node.op == Op::subtract && firstIsNumber) {
+            level = everywhere[a] - level, flips = true, rest = b;
+        } else if (node.op == Op::multiply || node.op == Op::divide) {
+            // The factor may vary as long as its sign is known.
+            const auto hasSign = [&](IrId id) {
+                return (everywhere[id].lo > 0.0 || everywhere[id].hi < 0.0) && !mayBeNaN[id];
+            };
+            const bool isProduct = node.op == Op::multiply;
+            if (!hasSign(b) && !(isProduct && hasSign(a))) return goal;
+            const Interval factor = everywhere[hasSign(b) ? b : a];
+            level = isProduct ? level / factor : level * factor;
+            flips = factor.hi < 0.0, rest = hasSign(b) ? a : b;
+        } else {
+            return goal;
+        }
+        if (isNumber(rest)) return goal;
+        const bool above = goal.above != flips;
+        goal = {rest, above, above ? level.lo : level.hi};
+        if (std::abs(goal.level) >= kHuge) return goal;
+    }
+}
+
+bool BoxContractor::isUnion(const Goal& goal) const {
+    const Op op = ir[goal.id].op;
+    return goal.above ? op == Op::maximum : op == Op::minimum || op == Op::smoothMinimum;
+}
+
+std::optional<Box> BoxContractor::reach(const Goal& whole, const Box& box, int depth) {
+    if (depth > kMaxDepth || isSpent()) return box;
+    const Goal goal = peeled(whole);
+    const Interval range = everywhere[goal.id];
+    if (goal.above ? range.hi < goal.level : range.lo > goal.level) return std::nullopt;
+    if (goal.above ? range.lo >= goal.level : range.hi <= goal.level) return box;
+    if (std::abs(goal.level) >= kHuge) return box;
+    const IrNode& node = ir[goal.id];
+    const IrId a = node.operands[0];
+    const auto both = [&](double least, double most) -> std::optional<Box> {  // least <= a <= most
+        const std::optional<Box> first = reach({a, false, most}, box, depth + 1);
+        return first ? reach({a, true, least}, *first, depth + 1) : std::nullopt;
+    };
+    const auto either = [&](double most, double least) {  // a <= most or a >= least
+        std::optional<Box> all = reach({a, false, most}, box, depth + 1);
+        joinInto(all, reach({a, true, least}, box, depth + 1));
+        return all;
+    };
+    switch (node.op) {
+        case Op::minimum:
+        case Op::maximum:
+        case Op::smoothMinimum:
+            return isUnion(goal) ? reachAny(goal, box, depth) : reachAll(goal, box, depth);
+        case Op::select: return reachSelected(goal, box, depth);
+        case Op::absolute:
+            return goal.above ? either(-goal.level, goal.level) : both(-goal.level, goal.level);
+        case Op::squareRoot:
+            return reach(
+                {a, goal.above,
+                 goal.above ? roundedDown(goal.level * goal.level) : roundedUp(goal.level * goal.level)},
+                box, depth + 1);
+        case Op::square: {
+            const double size = std::sqrt(goal.level);
+            return goal.above ? either(-roundedDown(size), roundedDown(size))
+                              : both(-roundedUp(size), roundedUp(size));
+        }
+        default: break;
+    }
+    return propagate({{goal.id, wantedBy(goal.above, goal.level)}}, box, depth + 1);
+}
+
+/// A chain of smooth minima of width k is at most k below the sharp minimum of all: were it lower than a - k
+/// for the next operand a, it would not blend with it. One of them is at most k / 4 below.
+std::optional<Box> BoxContractor::reachAny(const Goal& goal, const Box& box, int depth) {
+    struct Operand {
+        IrId id;
+        double level;
+        double chainStart, chainWidth;  // of the smooth minima that it is nested in
+    };
+    std::optional<Box> all;
+    std::vector<Operand> pending{{goal.id, goal.level, goal.level, 0.0}};
+    while (!pending.empty()) {
+        const Operand at = pending.back();
+        pending.pop_back();
+        const IrNode& node = ir[at.id];
+        if (!isUnion({at.id, goal.above, at.level})) {
+            joinInto(all, reach({at.id, goal.above, at.level}, box, depth + 1));
+            if (all == box) break;
+            continue;
+        }
+        Operand next = at;
+        if (node.op == Op::smoothMinimum) {
+            next.chainWidth = std::max(at.chainWidth, everywhere[node.operands[2]].hi);
+            next.level = std::min(roundedUp(at.level + 0.25 * everywhere[node.operands[2]].hi),
+                                  roundedUp(at.chainStart + next.chainWidth));
+        } else {
+            next.chainStart = at.level, next.chainWidth = 0.0;
+        }
+        for (const std::size_t i : {1, 0}) next.id = node.operands[i], pending.push_back(next);
+    }
+    return all;
+}
+
+std::optional<Box> BoxContractor::reachAll(const Goal& goal, const Box& box, int depth) {
+    Box left = box;
+    std::vector<IrId> pending{goal.id};
+    const Op op = ir[goal.id].op;
+    while (!pending.empty()) {
+        const IrId id = pending.back();
+        pending.pop_back();
+        if (ir[id].op == op) {
+            // The larger of a number and NaN is the number: nothing is known of the operand then.
+            for (const std::size_t i : {1, 0})
+                if (!mayBeNaN[ir[id].operands[i]]) pending.push_back(ir[id].operands[i]);
+            continue;
+        }
+        const std::optional<Box> next = reach({id, goal.above, goal.level}, left, depth + 1);
+        if (!next) return std::nullopt;
+        left = *next;
+    }
+    if (isBounded(left)) return left;
+    // What none of the operands bounds alone, all of them may.
+    return propagate({{goal.id, wantedBy(goal.above, goal.level)}}, left, depth + 1);
+}
+
+std::optional<Box> BoxContractor::reachSelected(const Goal& goal, const Box& box, int depth) {
+    const IrNode& node = ir[goal.id];
+    const IrId condition = node.operands[0];
+    std::optional<Box> all;
+    for (const std::size_t branch : {1, 2}) {
+        const IrId value = node.operands[branch];
+        std::optional<Box> part = reach({value, goal.above, goal.level}, box, depth + 1);
+        if (part && !isBounded(*part) && !mayBeNaN[condition] && !isNumber(value)) {
+            const double truth = branch == 1 ? 1.0 : 0.0;
+            part = propagate({{condition, {truth, truth}}, {value, wantedBy(goal.above, goal.level)}}, *part,
+                             depth + 1);
+        }
+        joinInto(all, part);
+        if (all == box) break;
+    }
+    return all;
+}
+
+std::vector<IrId> BoxContractor::coneOf(std::span<const Constraint> constraints) {
+    std::vector<IrId> cone, pending;
+    ++stamp;
+    const auto visit = [&](IrId id) {
+        if (id < 3 || isNumber(id) || stamps[id] == stamp) return;
+        stamps[id] = stamp;
+        pending.push_back(id);
+    };
+    for (const Constraint& constraint : constraints) visit(constraint.id);
+    while (!pending.empty()) {
+        const IrId id = pending.back();
+        pending.pop_back();
+        cone.push_back(id);
+        for (int i = 0; i < opInfo(ir[id].op).arity; ++i) visit(ir[id].operands[std::size_t(i)]);
+    }
+    std::ranges::sort(cone);
+    return cone;
+}
+
+std::optional<Box> BoxContractor::propagate(std::vector<Constraint> constraints, const Box& box, int depth,
+                                            std::vector<Replacement> replacements) {
+    if (depth > kMaxDepth || isSpent()) return box;
+    const std::vector<IrId> cone = coneOf(constraints);
+    for (std::size_t axis = 0; axis < 3; ++axis) current[axis] = sideOf(box, axis);
+    forwards(cone, false);
+    for (const Constraint& constraint : constraints)
+        if (!intersect(current[constraint.id], constraint.range)) return std::nullopt;
+    const auto currentBox = [&] {
+        return Box{{current[0].lo, current[1].lo, current[2].lo},
+                   {current[0].hi, current[1].hi, current[2].hi}};
+    };
+    if (!narrow(cone, replacements, kMaxRounds)) return std::nullopt;
+    if (!isBounded(currentBox())) {
+        caseDepth = kMaxCaseDepth;
+        const bool isPossible = narrow(cone, replacements, kMaxRounds);
+        caseDepth = 0;
+        if (!isPossible) return std::nullopt;
+    }
+    const Box left = currentBox();
+    if (isBounded(left) || replacements.size() >= kMaxReplacements) return left;
+    const std::vector<Piece> pieces = piecesOfUnbounded(cone, replacements);
+    if (pieces.empty()) return left;
+    std::optional<Box> all;
+    for (const Piece& piece : pieces) {
+        std::vector<Constraint> together = constraints;
+        together.insert(together.end(), piece.constraints.begin(), piece.constraints.end());
+        std::vector<Replacement> replaced = replacements;
+        replaced.insert(replaced.end(), piece.replacements.begin(), piece.replacements.end());
+        joinInto(all, propagate(std::move(together), left, depth + 1, std::move(replaced)));
+    }
+    return all;
+}
+
+/// The cases of an unbounded |a|, minimum, maximum or choice that is a term of a bounded linear form.
+std::vector<BoxContractor::Piece> BoxContractor::piecesOfUnbounded(
+    std::span<const IrId> cone, std::span<const Replacement> replacements) {
+    const auto isReplaced = [&](IrId id) {
+        return std::ranges::find(replacements, id, &Replacement::first) != replacements.end();
+    };
+    const auto formOf = [&](IrId id) {
+        if (isNumber(id)) return LinearForm{.terms = {}, .constant = everywhere[id].lo};
+        if (id < 3) return LinearForm{.terms = {{id, 1.0}}, .constant = 0.0};
+        return substitute(forms[id], replacements);
+    };
+    const auto piece = [](Constraint constraint, Replacement replacement) {
+        Piece made{.constraints = {}, .replacements = {std::move(replacement)}};
+        if (constraint.id != 0) made.constraints.push_back(constraint);
+        return made;
+    };
+    for (const IrId row : cone) {
+        if (forms[row].terms.size() < 2 || !isBounded(current[row])) continue;
+        for (const LinearForm::Term& term : forms[row].terms) {
+            const IrId id = term.atom;
+            if (id < 3 || !!isBounded(current[id]) || isReplaced(id)) continue;
+            const IrNode& node = ir[id];
+            const IrId a = node.operands[0], b = node.operands[1], c = node.operands[2];
+            switch (node.op) {
+                case Op::absolute:
+                    return {piece({a, {0.0, kHuge}}, {id, formOf(a)}),
+                            piece({a, {-kHuge, 0.0}}, {id, sum({}, formOf(a), -1.0)})};
+                case Op::minimum:
+                case Op::maximum: return {piece({}, {id, formOf(a)}), piece({}, {id, formOf(b)})};
+                case Op::select: {
+                    // All that is chosen by the same condition is chosen together.
+                    const bool isKnown = !mayBeNaN[a];
+                    Piece taken = piece({isKnown ? a : 0, {1.0, 1.0}}, {id, formOf(b)}),
+                          other = piece({isKnown ? a : 0, {0.0, 0.0}}, {id, formOf(c)});
+                    for (const IrId same : cone) {
+                        if (same == id || ir[same].op != Op::select || ir[same].operands[0] != a ||
+                            isReplaced(same))
+                            continue;
+                        taken.replacements.push_back({same, formOf(ir[same].operands[1])});
+                        other.replacements.push_back({same, formOf(ir[same].operands[2])});
+                    }
+                    return {std::move(taken), std::move(other)};
+                }
+                default: break;
+            }
+        }
+    }
+    return {};
+}
+
+}  // namespace fw

@@ -1,0 +1,145 @@
+// BoxContractor: narrows boxes to the part that can hold a solid.
+//
+// contract() answers: where within this box can f(p) <= level be? The answer is a box that contains every
+// such point; it may be larger than needed, never smaller. It starts from any box, infinite ones included, so
+// it bounds a solid without a search over space: a ball at (4, 2, 3) is bounded by going backwards from
+// length(p - (4, 2, 3)) - 1 <= 0 to the coordinates.
+//
+// Rules:
+// * A minimum is a union: each operand is contracted alone, and the result is the hull. A maximum is an
+//   intersection: its operands are contracted one after the other. |f| <= a, -f <= a, f + c <= a, conditional
+//   values and blends are taken apart in the same way; a smooth minimum of width k is at most k / 4 below
+//   the sharp one, a chain of them at most k.
+// * Everything else goes forwards and backwards through its operations on intervals (projections.h).
+// * Two values that are a rotation of two others by a varying angle, x cos(a) + y sin(a) and
+//   y cos(a) - x sin(a), have the same length as those: so twisted and bent solids are bounded.
+// * The coordinates beside a spline bound the distance to it.
+// * Systems of linear combinations are solved for their unbounded terms (linear_forms.h): so turned solids
+//   are bounded.
+// * Where all this leaves the box unbounded, minima, maxima and choices within an expression are tried case
+// by
+//   case, and every value gets the hull of its intervals in the cases (constructive disjunction). Terms of
+//   linear combinations that are piecewise linear, as |x|, are replaced by each of their pieces: so mirrored
+//   solids are bounded.
+//
+// Points where f is not a number are outside, as for the mesher. A minimum is taken to ignore an operand that
+// is NaN, as IEEE 754's minNum does, and a comparison with NaN is false; so nothing is concluded there from
+// operands that may be NaN in some volume of space, as 0 / max(x, 0) is. Single points and surfaces where a
+// field is NaN hold no solid.
+//
+// Lifetime: belongs to one thread and one Ir, which must outlive it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "graph/base/box.h"
+#include "graph/evaluate/linear_forms.h"
+#include "graph/evaluate/projections.h"
+#include "graph/ir/ir.h"
+
+namespace fw {
+
+/// All of space; its ends stand for infinity, as those of intervals.
+inline constexpr Box kAllSpace{{-kHuge, -kHuge, -kHuge}, {kHuge, kHuge, kHuge}};
+/// Whether no side of the box is at infinity.
+bool isBounded(const Box& box);
+
+class BoxContractor {
+  public:
+    /// `parameters`: intervals of the live parameters' values, in their slots. A result holds for all values
+    /// in them.
+    BoxContractor(const Ir& ir, std::span<const Interval> parameters);
+
+    /// The part of a solid that one operand of a union makes.
+    struct Part {
+        IrId root;  ///< the solid is where any part's root is <= 0
+        Box box;    ///< contains the part
+    };
+    /// The solid root <= 0 as parts, the operands of its outermost minimum; empty parts are left out. So an
+    /// empty list proves that there is no solid in `within`.
+    std::vector<Part> parts(IrId root, const Box& within = kAllSpace);
+
+    /// A box that contains all points of `box` where root <= level; nothing if there are none.
+    std::optional<Box> contract(IrId root, double level, const Box& box);
+
+    /// Operations evaluated on intervals so far, forwards and backwards. Once there are more than `limit`
+    /// contract() returns the box that it was given, which is right but of no use.
+    std::size_t steps() const { return stepCount; }
+    void setLimit(std::size_t limit) { stepLimit = limit; }
+
+  private:
+    struct Goal {
+        IrId id;
+        bool above;  ///< value >= level is wanted, in place of value <= level
+        double level;
+    };
+    struct Constraint {
+        IrId id;
+        Interval range;
+    };
+    /// p = x cos(a) +- y sin(a) and q = y cos(a) -+ x sin(a).
+    struct Rotation {
+        IrId p, q, x, y;
+    };
+    /// The channels of one spline at one place that the Ir reads.
+    struct SplineUse {
+        const SplineTable* table;
+        std::array<IrId, kSplineChannels> channels;  ///< 0: is not read
+        std::array<IrId, 3> place;
+        Box box;  ///< of the spline
+    };
+
+    std::optional<Box> reach(const Goal& goal, const Box& box, int depth);
+    std::optional<Box> reachAny(const Goal& goal, const Box& box, int depth);
+    std::optional<Box> reachAll(const Goal& goal, const Box& box, int depth);
+    std::optional<Box> reachSelected(const Goal& goal, const Box& box, int depth);
+    std::optional<Box> propagate(std::vector<Constraint> constraints, const Box& box, int depth,
+                                 std::vector<Replacement> replacements = {});
+    /// One of the ways in which a piecewise linear value can be linear.
+    struct Piece {
+        std::vector<Constraint> constraints;
+        std::vector<Replacement> replacements;
+    };
+    std::vector<Piece> piecesOfUnbounded(std::span<const IrId> cone,
+                                         std::span<const Replacement> replacements);
+    /// Goals of whole operations are taken apart: f + 1 <= 0 becomes f <= -1.
+    Goal peeled(Goal goal) const;
+    bool isUnion(const Goal& goal) const;
+
+    bool forwards(std::span<const IrId> cone, bool narrow);
+    bool backwards(std::span<const IrId> cone);
+    std::vector<std::vector<Constraint>> casesOf(IrId id) const;
+    bool disjoin(IrId id);
+    bool narrow(std::span<const IrId> cone, std::span<const Replacement> replacements, int rounds);
+    bool projectNode(IrId id);
+    bool projectRotations(IrId id);
+    bool projectSplines(IrId id);
+    std::size_t boundedCount(std::span<const IrId> cone) const;
+    bool solveLinear(std::span<const IrId> cone, std::span<const Replacement> replacements, bool& narrowed);
+    void findUndefined();
+    void findRotations();
+    void findSplines();
+    /// The operations that depend on the position, up to those of the constraints, ascending.
+    std::vector<IrId> coneOf(std::span<const Constraint> constraints);
+    Interval evaluate(IrId id) const;
+    bool isNumber(IrId id) const { return ir[id].positions == 0; }
+    bool isSpent() const { return stepCount > stepLimit; }
+
+    const Ir& ir;
+    std::vector<Interval> everywhere;  ///< of each operation, over all of space
+    std::vector<Interval> current;     ///< over the box at hand, where the constraints hold
+    std::vector<bool> mayBeNaN;        ///< in some volume of space
+    std::vector<uint32_t> stamps;
+    uint32_t stamp = 0;
+    LinearForms forms;
+    std::unordered_multimap<IrId, Rotation> rotations;  ///< by the smaller of p and q
+    std::unordered_map<IrId, SplineUse> splines;        ///< by the smallest id of its channels
+    std::vector<bool> isTurned;                         ///< is a result of a rotation
+    int caseDepth = 0;                                  ///< of nested cases that backwards() may go through
+    std::size_t stepCount = 0, stepLimit = SIZE_MAX;
+};
+
+}  // namespace fw

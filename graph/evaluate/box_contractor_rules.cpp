@@ -1,0 +1,388 @@
+// The rules by which BoxContractor narrows the values of one expression.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "graph/evaluate/box_contractor.h"
+#include "graph/evaluate/region.h"
+
+namespace fw {
+
+namespace {
+
+/// These swallow an operand that is not a number.
+bool ignoresNaN(Op op) {
+    switch (op) {
+        case Op::minimum:
+        case Op::maximum:
+        case Op::select:
+        case Op::less:
+        case Op::lessEqual:
+        case Op::equal:
+        case Op::logicalAnd:
+        case Op::logicalOr:
+        case Op::logicalNot: return true;
+        default: return false;
+    }
+}
+
+Box boxOf(const Spline& spline) {
+    std::optional<Box> all;
+    for (const SpaceArc& arc : spline.arcs) {
+        // An arc is this close to its chord.
+        const double sagitta = 0.5 * arc.half * arc.half * arc.bend + 1e-12;
+        for (const double s : {-arc.half, arc.half}) {
+            const glm::dvec3 end = placeOn(arc, s);
+            Box box;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                box.lo[axis] = end[int(axis)] - sagitta, box.hi[axis] = end[int(axis)] + sagitta;
+            all = all ? joined(*all, box) : box;
+        }
+    }
+    return all.value_or(Box{});
+}
+
+/// A round that leaves more than this share of every side is the last.
+constexpr double kWorthwhile = 0.9;
+
+/// x cos(angle) or x sin(angle), either negated.
+struct TurnedTerm {
+    IrId x, angle;
+    bool isSine, isNegative;
+};
+
+std::optional<TurnedTerm> turnedTerm(const Ir& ir, IrId id) {
+    bool isNegative = false;
+    while (ir[id].op == Op::negate) id = ir[id].operands[0], isNegative = !isNegative;
+    if (ir[id].op != Op::multiply) return std::nullopt;
+    for (const std::size_t i : {0, 1}) {
+        const IrNode& turn = ir[ir[id].operands[i]];
+        if (turn.op == Op::sine || turn.op == Op::cosine)
+            return TurnedTerm{ir[id].operands[1 - i], turn.operands[0], turn.op == Op::sine, isNegative};
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+bool BoxContractor::forwards(std::span<const IrId> cone, bool narrow) {
+    stepCount += cone.size();
+    for (const IrId id : cone) {
+        const IrNode& node = ir[id];
+        Interval operands[kMaxArity];
+        const OpInfo& info = opInfo(node.op);
+        for (int i = 0; i < info.arity; ++i) operands[i] = current[node.operands[std::size_t(i)]];
+        const Interval value =
+            info.interval(operands, samplesLayer(node.op) ? ir.layer(node) : SampledLayer{});
+        if (!narrow)
+            current[id] = value;
+        else if (!intersect(current[id], value))
+            return false;
+    }
+    return true;
+}
+
+bool BoxContractor::backwards(std::span<const IrId> cone) {
+    stepCount += cone.size();
+    for (std::size_t i = cone.size(); i-- > 0;)
+        if (!projectNode(cone[i]) || !projectRotations(cone[i]) || !projectSplines(cone[i]) ||
+            (caseDepth > 0 && !disjoin(cone[i])))
+            return false;
+    return true;
+}
+
+/// The cases of a value that is one of its operands, as constraints on these; none if it is known which.
+std::vector<std::vector<BoxContractor::Constraint>> BoxContractor::casesOf(IrId id) const {
+    const IrNode& node = ir[id];
+    const IrId a = node.operands[0], b = node.operands[1], c = node.operands[2];
+    const Interval range = current[id];
+    switch (node.op) {
+        case Op::minimum:
+        case Op::smoothMinimum: {
+            const double blend = node.op == Op::minimum ? 0.0 : 0.25 * std::max(current[c].hi, 0.0);
+            const Interval wanted{-kHuge, range.hi + blend + 1e-12 * std::abs(range.hi)};
+            if (current[a].lo > wanted.hi || current[b].lo > wanted.hi ||
+                (current[a].hi <= wanted.hi && current[b].hi <= wanted.hi))
+                return {};
+            return {{{a, wanted}}, {{b, wanted}}};
+        }
+        case Op::maximum: {
+            const Interval wanted{range.lo - 1e-12 * std::abs(range.lo), kHuge};
+            if (current[a].hi < wanted.lo || current[b].hi < wanted.lo ||
+                (current[a].lo >= wanted.lo && current[b].lo >= wanted.lo))
+                return {};
+            return {{{a, wanted}}, {{b, wanted}}};
+        }
+        case Op::select:
+            if (current[a].isPoint()) return {};
+            if (mayBeNaN[a]) return {{{b, range}}, {{c, range}}};
+            return {{{a, {1.0, 1.0}}, {b, range}}, {{a, {0.0, 0.0}}, {c, range}}};
+        default: return {};
+    }
+}
+
+/// Narrows everything below a minimum, a maximum or a choice to the hull of what is left in its cases.
+bool BoxContractor::disjoin(IrId id) {
+    const std::vector<std::vector<Constraint>> cases = casesOf(id);
+    if (cases.empty() || isSpent()) return true;
+    --caseDepth;
+    std::vector<Constraint> all;
+    for (const auto& constraints : cases) all.insert(all.end(), constraints.begin(), constraints.end());
+    std::vector<IrId> values = coneOf(all);
+    values.insert(values.begin(), {0, 1, 2});
+    std::vector<Interval> before, hulls;
+    for (const IrId value : values) before.push_back(current[value]);
+    for (const auto& constraints : cases) {
+        bool isPossible = true;
+        for (const Constraint& constraint : constraints) {
+            Interval range = current[constraint.id];
+            isPossible = isPossible && intersect(range, constraint.range);
+            if (isPossible && !isNumber(constraint.id)) current[constraint.id] = range;
+        }
+        if (isPossible && backwards(coneOf(constraints))) {
+            const bool isFirst = hulls.empty();
+            hulls.resize(values.size());
+            for (std::size_t i = 0; i < values.size(); ++i)
+                hulls[i] = isFirst ? current[values[i]] : hull(hulls[i], current[values[i]]);
+        }
+        for (std::size_t i = 0; i < values.size(); ++i) current[values[i]] = before[i];
+    }
+    ++caseDepth;
+    if (hulls.empty()) return false;
+    for (std::size_t i = 0; i < values.size(); ++i) current[values[i]] = hulls[i];
+    return true;
+}
+
+std::size_t BoxContractor::boundedCount(std::span<const IrId> cone) const {
+    std::size_t count = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) count += isBounded(current[axis]);
+    for (const IrId id : cone) count += isBounded(current[id]);
+    return count;
+}
+
+/// Goes backwards and forwards through the cone until nothing more is bounded and the box shrinks little.
+bool BoxContractor::narrow(std::span<const IrId> cone, std::span<const Replacement> replacements,
+                           int rounds) {
+    for (int round = 0; round < rounds; ++round) {
+        const std::array<Interval, 3> before{current[0], current[1], current[2]};
+        const std::size_t boundedBefore = boundedCount(cone);
+        bool solved = false;
+        if (!backwards(cone) || !solveLinear(cone, replacements, solved) || (solved && !backwards(cone)) ||
+            !forwards(cone, true))
+            return false;
+        bool worthwhile = solved || boundedCount(cone) > boundedBefore;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            worthwhile |=
+                current[axis].hi - current[axis].lo < kWorthwhile * (before[axis].hi - before[axis].lo);
+        if (!worthwhile || isSpent()) break;
+    }
+    return true;
+}
+
+bool BoxContractor::projectNode(IrId id) {
+    const IrNode& node = ir[id];
+    const int arity = opInfo(node.op).arity;
+    Interval operands[kMaxArity];
+    bool isUndefined = false;
+    for (int i = 0; i < arity; ++i) {
+        operands[i] = current[node.operands[std::size_t(i)]];
+        isUndefined |= mayBeNaN[node.operands[std::size_t(i)]];
+    }
+    if (isUndefined && ignoresNaN(node.op)) return true;
+    const SampledLayer layer = samplesLayer(node.op) ? ir.layer(node) : SampledLayer{};
+    if (!projectOperands(node.op, current[id], operands, layer)) return false;
+    for (int i = 0; i < arity; ++i) {
+        const IrId operand = node.operands[std::size_t(i)];
+        if (!isNumber(operand) && !intersect(current[operand], operands[i])) return false;
+    }
+    return true;
+}
+
+bool BoxContractor::projectRotations(IrId id) {
+    const auto [first, last] = rotations.equal_range(id);
+    for (auto it = first; it != last; ++it) {
+        const Rotation& turn = it->second;
+        if (!isBounded(current[turn.p]) || !isBounded(current[turn.q])) continue;
+        const double radius =
+            std::hypot(absolute(current[turn.p]).hi, absolute(current[turn.q]).hi) * (1.0 + 1e-12);
+        for (const IrId operand : {turn.x, turn.y})
+            if (!isNumber(operand) && !intersect(current[operand], {-radius, radius})) return false;
+    }
+    return true;
+}
+
+/// The distance to a spline from the coordinates beside it; beyond an open end the place is as far off along
+/// the spline as its coordinate says.
+bool BoxContractor::projectSplines(IrId id) {
+    const auto found = splines.find(id);
+    if (found == splines.end()) return true;
+    const SplineUse& use = found->second;
+    const auto range = [&](SplineChannel channel) {
+        const IrId value = use.channels[std::size_t(channel)];
+        return value == 0 ? kEverything : current[value];
+    };
+    const Interval across = range(SplineChannel::across), up = range(SplineChannel::up),
+                   along = range(SplineChannel::along), distance = range(SplineChannel::distance);
+    double reach = kHuge;
+    if (distance.hi < kHuge) reach = std::max(distance.hi, 0.0) + use.table->radius * use.table->mostShare;
+    const bool isOpen = !use.table->spline->closed;
+    if (isBounded(across) && isBounded(up) && (!isOpen || isBounded(along))) {
+        const double over = isOpen ? std::max({0.0, -along.lo, along.hi - use.table->spline->length}) : 0.0;
+        reach = std::min(reach, std::hypot(absolute(across).hi, absolute(up).hi, over));
+    }
+    if (reach >= kHuge) return true;
+    reach *= 1.0 + 1e-6;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const IrId coordinate = use.place[axis];
+        const double slack = reach + 1e-6 * (use.box.hi[axis] - use.box.lo[axis]) + 1e-12;
+        const Interval narrowed{use.box.lo[axis] - slack, use.box.hi[axis] + slack};
+        if (!isNumber(coordinate) && !intersect(current[coordinate], narrowed)) return false;
+    }
+    return true;
+}
+
+bool BoxContractor::solveLinear(std::span<const IrId> cone, std::span<const Replacement> replacements,
+                                bool& narrowed) {
+    bool isUnbounded = false;
+    for (std::size_t axis = 0; axis < 3; ++axis) isUnbounded |= !isBounded(current[axis]);
+    if (!isUnbounded) return true;
+    forms.add(ir, cone, everywhere, isTurned);
+    std::vector<LinearForm> rows;
+    std::vector<Interval> bounds;
+    for (const IrId id : cone) {
+        if (forms[id].isAtom(id) || !isBounded(current[id])) continue;
+        LinearForm form = substitute(forms[id], replacements);
+        const bool isUseful = std::ranges::any_of(
+            form.terms, [&](const LinearForm::Term& term) { return !isBounded(current[term.atom]); });
+        if (!isUseful) continue;
+        rows.push_back(std::move(form));
+        bounds.push_back(current[id]);
+    }
+    // A replaced value that is bounded is a form, too.
+    for (const auto& [id, form] : replacements)
+        if (isBounded(current[id])) rows.push_back(form), bounds.push_back(current[id]);
+    for (const IrId atom : solveForUnbounded(rows, bounds, current)) {
+        if (current[atom].lo > current[atom].hi) return false;
+        narrowed = true;
+    }
+    return true;
+}
+
+/// A quotient is NaN in some volume only if its divisor is 0 in some volume, which only values that may be
+/// constant there are: roundings, choices, values at a clamp.
+void BoxContractor::findUndefined() {
+    std::vector<bool> isFlat(ir.size());  // may be constant in some volume
+    for (IrId id = 0; id < ir.size(); ++id) {
+        const IrNode& node = ir[id];
+        const int arity = opInfo(node.op).arity;
+        const auto operand = [&](int i) { return node.operands[std::size_t(i)]; };
+        const auto mayBeZero = [&](int i) {
+            return isFlat[operand(i)] && everywhere[operand(i)].contains(0.0);
+        };
+        bool allFlat = true, anyFlat = false, anyNaN = false, allNaN = arity > 0;
+        for (int i = 0; i < arity; ++i) {
+            allFlat = allFlat && isFlat[operand(i)];
+            anyFlat = anyFlat || isFlat[operand(i)];
+            anyNaN = anyNaN || mayBeNaN[operand(i)];
+            allNaN = allNaN && mayBeNaN[operand(i)];
+        }
+        mayBeNaN[id] = anyNaN;
+        switch (node.op) {
+            case Op::positionX:
+            case Op::positionY:
+            case Op::positionZ: break;
+            case Op::negate:
+            case Op::absolute:
+            case Op::square:
+            case Op::exponential:
+            case Op::sine:
+            case Op::cosine:
+            case Op::tangent:
+            case Op::arcTangent:
+            case Op::arcTangent2:
+            case Op::add:
+            case Op::subtract:
+            case Op::gradientNoise:
+            case Op::simplexNoise:
+            case Op::worleyNoise:
+            case Op::cellWall: isFlat[id] = allFlat; break;
+            case Op::multiply: isFlat[id] = allFlat || mayBeZero(0) || mayBeZero(1); break;
+            case Op::squareRoot: isFlat[id] = allFlat || everywhere[operand(0)].lo < 0.0; break;
+            case Op::minimum:
+            case Op::maximum:
+                isFlat[id] = anyFlat;
+                mayBeNaN[id] = allNaN;
+                break;
+            case Op::smoothMinimum: isFlat[id] = anyFlat; break;
+            case Op::select:
+                isFlat[id] = true;
+                mayBeNaN[id] = mayBeNaN[operand(1)] || mayBeNaN[operand(2)];
+                break;
+            case Op::divide:
+            case Op::modulo:
+            case Op::truncatedModulo:
+                isFlat[id] = allFlat || mayBeZero(0);
+                if (mayBeZero(1)) mayBeNaN[id] = true;
+                break;
+            default: isFlat[id] = true; break;
+        }
+    }
+}
+
+void BoxContractor::findRotations() {
+    // By the angle and both turned values, in order of their ids: the sums that were seen.
+    struct Seen {
+        IrId id;
+        bool firstIsSine, signsDiffer;
+    };
+    std::map<std::tuple<IrId, IrId, IrId>, std::vector<Seen>> sums;
+    isTurned.resize(ir.size());
+    const auto note = [&](IrId id, const TurnedTerm& first, IrId y, bool signsDiffer) {
+        std::vector<Seen>& others = sums[{first.angle, first.x, y}];
+        for (const Seen& other : others)
+            if (other.firstIsSine != first.isSine && (y == first.x || other.signsDiffer != signsDiffer)) {
+                rotations.insert({std::min(id, other.id), {id, other.id, first.x, y}});
+                isTurned[id] = isTurned[other.id] = true;
+            }
+        others.push_back({id, first.isSine, signsDiffer});
+    };
+    for (IrId id = 3; id < ir.size(); ++id) {
+        const IrNode& node = ir[id];
+        if (node.positions == 0) continue;
+        if (const auto single = turnedTerm(ir, id); single && node.op == Op::multiply)
+            note(id, *single, single->x, false);
+        if (node.op != Op::add && node.op != Op::subtract) continue;
+        auto first = turnedTerm(ir, node.operands[0]), second = turnedTerm(ir, node.operands[1]);
+        if (!first || !second || first->angle != second->angle || first->isSine == second->isSine ||
+            first->x == second->x)
+            continue;
+        if (node.op == Op::subtract) second->isNegative = !second->isNegative;
+        if (second->x < first->x) std::swap(first, second);
+        note(id, *first, second->x, first->isNegative != second->isNegative);
+    }
+}
+
+void BoxContractor::findSplines() {
+    std::map<std::tuple<const SplineTable*, IrId, IrId, IrId>, SplineUse> uses;
+    for (IrId id = 3; id < ir.size(); ++id) {
+        const IrNode& node = ir[id];
+        if (node.op != Op::spline) continue;
+        const SampledLayer layer = ir.layer(node);
+        SplineUse& use = uses[{layer.spline, node.operands[0], node.operands[1], node.operands[2]}];
+        use.table = layer.spline;
+        use.channels[std::size_t(layer.channel)] = id;
+        use.place = {node.operands[0], node.operands[1], node.operands[2]};
+    }
+    std::map<const SplineTable*, Box> boxes;
+    for (auto& [key, use] : uses) {
+        if (!boxes.contains(use.table)) boxes[use.table] = boxOf(*use.table->spline);
+        use.box = boxes[use.table];
+        IrId smallest = ~IrId(0);
+        for (const IrId channel : use.channels)
+            if (channel != 0) smallest = std::min(smallest, channel);
+        splines[smallest] = use;
+    }
+}
+
+}  // namespace fw

@@ -1,0 +1,157 @@
+#include "graph/evaluate/linear_forms.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fw {
+
+namespace {
+
+constexpr std::size_t kMaxRows = 24, kMaxColumns = 12;
+constexpr double kSmallestPivot = 1e-5;  ///< of rows scaled to a largest factor of 1
+constexpr double kZeroFactor = 1e-11, kFormSlack = 1e-9;
+
+struct Row {
+    std::array<double, kMaxColumns> factors{};   ///< of the unbounded atoms
+    std::array<double, kMaxRows> multipliers{};  ///< of the given forms, whose sum this row is
+};
+
+void addMultiple(Row& to, const Row& from, double factor) {
+    for (std::size_t i = 0; i < kMaxColumns; ++i) to.factors[i] += factor * from.factors[i];
+    for (std::size_t i = 0; i < kMaxRows; ++i) to.multipliers[i] += factor * from.multipliers[i];
+}
+void scale(Row& row, double factor) {
+    for (double& value : row.factors) value *= factor;
+    for (double& value : row.multipliers) value *= factor;
+}
+
+}  // namespace
+
+LinearForm sum(const LinearForm& a, const LinearForm& b, double factorOfB) {
+    LinearForm result{.terms = {}, .constant = a.constant + factorOfB * b.constant};
+    auto i = a.terms.begin(), j = b.terms.begin();
+    while (i != a.terms.end() || j != b.terms.end()) {
+        if (j == b.terms.end() || (i != a.terms.end() && i->atom < j->atom)) {
+            result.terms.push_back(*i++);
+        } else if (i == a.terms.end() || j->atom < i->atom) {
+            result.terms.push_back({j->atom, factorOfB * j->factor});
+            ++j;
+        } else {
+            const double factor = i->factor + factorOfB * j->factor;
+            // What cancels but for rounding is nothing.
+            if (std::abs(factor) > 1e-14 * std::abs(i->factor)) result.terms.push_back({i->atom, factor});
+            ++i, ++j;
+        }
+    }
+    return result;
+}
+
+LinearForm substitute(const LinearForm& form, std::span<const Replacement> replacements) {
+    LinearForm result{.terms = {}, .constant = form.constant};
+    for (const LinearForm::Term& term : form.terms) {
+        const auto found = std::ranges::find(replacements, term.atom, &Replacement::first);
+        const LinearForm own{.terms = {{term.atom, 1.0}}, .constant = 0.0};
+        result = sum(result, found == replacements.end() ? own : found->second, term.factor);
+    }
+    return result;
+}
+
+void LinearForms::add(const Ir& ir, std::span<const IrId> ids, std::span<const Interval> values,
+                      const std::vector<bool>& isAtom) {
+    if (forms.size() < values.size()) forms.resize(values.size()), isKnown.resize(values.size());
+    const auto isNumber = [&](IrId id) { return values[id].isPoint() && ir[id].positions == 0; };
+    const auto formOf = [&](IrId id) {
+        if (id < 3) return LinearForm{.terms = {{id, 1.0}}, .constant = 0.0};
+        return isNumber(id) ? LinearForm{.terms = {}, .constant = values[id].lo} : forms[id];
+    };
+    for (const IrId id : ids) {
+        if (isKnown[id]) continue;
+        isKnown[id] = true;
+        const IrNode& node = ir[id];
+        const IrId a = node.operands[0], b = node.operands[1];
+        LinearForm form;
+        switch (isAtom[id] ? Op::count : node.op) {
+            case Op::negate: form = sum({}, formOf(a), -1.0); break;
+            case Op::add: form = sum(formOf(a), formOf(b), 1.0); break;
+            case Op::subtract: form = sum(formOf(a), formOf(b), -1.0); break;
+            case Op::multiply:
+                if (isNumber(a) && values[a].lo != 0.0) form = sum({}, formOf(b), values[a].lo);
+                if (isNumber(b) && values[b].lo != 0.0) form = sum({}, formOf(a), values[b].lo);
+                break;
+            case Op::divide:
+                if (isNumber(b) && values[b].lo != 0.0) form = sum({}, formOf(a), 1.0 / values[b].lo);
+                break;
+            default: break;
+        }
+        if (form.terms.empty() || form.terms.size() > kMaxTerms)
+            form = {.terms = {{id, 1.0}}, .constant = 0.0};
+        forms[id] = std::move(form);
+    }
+}
+
+std::vector<IrId> solveForUnbounded(std::span<const LinearForm> forms, std::span<const Interval> bounds,
+                                    std::span<Interval> atoms) {
+    const std::size_t count = std::min(forms.size(), kMaxRows);
+    std::vector<IrId> columns;
+    for (const LinearForm& form : forms.first(count))
+        for (const LinearForm::Term& term : form.terms)
+            if (!isBounded(atoms[term.atom]) && std::ranges::find(columns, term.atom) == columns.end())
+                columns.push_back(term.atom);
+    if (columns.empty() || columns.size() > kMaxColumns) return {};
+    std::vector<Row> rows(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        double largest = 0.0;
+        rows[i].multipliers[i] = 1.0;
+        for (const LinearForm::Term& term : forms[i].terms) {
+            const auto found = std::ranges::find(columns, term.atom);
+            if (found == columns.end()) continue;
+            rows[i].factors[std::size_t(found - columns.begin())] = term.factor;
+            largest = std::max(largest, std::abs(term.factor));
+        }
+        if (largest > 0.0) scale(rows[i], 1.0 / largest);
+    }
+    // Reduced row echelon form, with full pivoting.
+    std::vector<std::size_t> pivotColumns;
+    for (std::size_t step = 0; step < count; ++step) {
+        std::size_t bestRow = 0, bestColumn = 0;
+        double largest = kSmallestPivot;
+        for (std::size_t i = step; i < count; ++i)
+            for (std::size_t j = 0; j < columns.size(); ++j)
+                if (std::abs(rows[i].factors[j]) > largest)
+                    largest = std::abs(rows[i].factors[j]), bestRow = i, bestColumn = j;
+        if (largest == kSmallestPivot) break;
+        std::swap(rows[step], rows[bestRow]);
+        scale(rows[step], 1.0 / rows[step].factors[bestColumn]);
+        for (std::size_t i = 0; i < count; ++i)
+            if (i != step && rows[i].factors[bestColumn] != 0.0)
+                addMultiple(rows[i], rows[step], -rows[i].factors[bestColumn]);
+        pivotColumns.push_back(bestColumn);
+    }
+    std::vector<IrId> narrowed;
+    for (std::size_t step = 0; step < pivotColumns.size(); ++step) {
+        const Row& row = rows[step];
+        bool isolated = true;
+        for (std::size_t j = 0; j < columns.size(); ++j)
+            isolated &= j == pivotColumns[step] || std::abs(row.factors[j]) < kZeroFactor;
+        if (!isolated) continue;
+        Interval total{0.0, 0.0};
+        for (std::size_t i = 0; i < count; ++i) {
+            if (row.multipliers[i] == 0.0) continue;
+            Interval rest = bounds[i] - Interval{forms[i].constant, forms[i].constant};
+            for (const LinearForm::Term& term : forms[i].terms)
+                if (std::ranges::find(columns, term.atom) == columns.end())
+                    rest = rest - Interval{term.factor, term.factor} * atoms[term.atom];
+            total = total + Interval{row.multipliers[i], row.multipliers[i]} * rest;
+        }
+        const double slack = kFormSlack * absolute(total).hi;
+        total = outward(total.lo - slack, total.hi + slack);
+        if (!isBounded(total)) continue;
+        Interval& atom = atoms[columns[pivotColumns[step]]];
+        atom = {std::max(atom.lo, total.lo), std::min(atom.hi, total.hi)};
+        narrowed.push_back(columns[pivotColumns[step]]);
+    }
+    return narrowed;
+}
+
+}  // namespace fw
