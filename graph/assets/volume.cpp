@@ -370,6 +370,25 @@ Interval sampleVolume(const VolumeLayer& layer, const Interval* place) {
     return outward(std::clamp(lo, layer.least, most) - more, std::clamp(hi, layer.least, most) + more);
 }
 
+double lipschitzConstant(const VolumeLayer& layer, const Interval* place) {
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    const VolumeGrid& grid = layer.volume->grid;
+    if (layer.channel >= redChannel) {
+        // Trilinear, so along an axis the derivative is at most the difference of two samples over the cell.
+        return std::numbers::sqrt3 * (layer.most - layer.least) / grid.cell;
+    }
+    if (!layer.volume->particles) return layer.slope;
+    // The samples of particles are no distances: their range bounds the derivative, and the field may jump
+    // at the border of the grid.
+    if (!layer.volume->made()) return kUnknown;
+    for (int axis = 0; axis < 3; ++axis)
+        if (place[axis].lo < grid.origin[axis] ||
+            place[axis].hi > grid.origin[axis] + grid.cell * (grid.size[axis] - 1))
+            return kUnknown;
+    const Interval range = particleRange(layer, place);
+    return kRoughSlope * (range.hi - range.lo) / grid.cell + kRoughRest;
+}
+
 std::size_t texelCount(const FieldVolume& volume) {
     const std::size_t samples = volume.grid.samples();
     if (!volume.particles) return samples + (volume.colored() ? (samples + 3) / 4 : 0);

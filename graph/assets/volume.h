@@ -111,6 +111,8 @@ using FieldVolumePtr = std::shared_ptr<const FieldVolume>;
 VolumeSample sampleVolume(const VolumeLayer& layer, const glm::dvec3& place);
 /// Contains every sample whose coordinates lie in the three intervals.
 Interval sampleVolume(const VolumeLayer& layer, const Interval* place);
+/// A Lipschitz constant of the layer over the box; infinity where none is known.
+double lipschitzConstant(const VolumeLayer& layer, const Interval* place);
 
 /// The second word of a sample: a vector of length at most 1.
 uint32_t packGradient(const glm::vec3& gradient);

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <numeric>
@@ -480,6 +481,33 @@ Interval sampleSpline(const SplineTable& table, SplineChannel channel, const Int
     const SpaceArc& arc = *beside.arc;
     return around(arc.radius + arc.radiusSlope * beside.foot.s, table.shareSlope * stretch, table.leastShare,
                   table.mostShare);
+}
+
+double lipschitzConstant(const SplineTable& table, SplineChannel channel, const Interval* p) {
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    const glm::dvec3 middle(0.5 * (p[0].lo + p[0].hi), 0.5 * (p[1].lo + p[1].hi), 0.5 * (p[2].lo + p[2].hi)),
+        half(0.5 * (p[0].hi - p[0].lo), 0.5 * (p[1].hi - p[1].lo), 0.5 * (p[2].hi - p[2].lo));
+    if (channel == SplineChannel::distance) {
+        const glm::dvec3 reach = glm::abs(middle - table.centre) + half;
+        const double outermost = std::ldexp(widest(table), kSplineLevels - 1);
+        return std::max({reach.x, reach.y, reach.z}) < outermost ? 1.0 : kUnknown;
+    }
+    // The others are as smooth as the spline in a plain cell.
+    const CellAt cell = cellFor(table, middle);
+    const SplineTexel& texel = table.texels[cell.index];
+    if (!(texel[1] & kPlainCell)) return kUnknown;
+    for (int k = 0; k < 3; ++k)
+        if (p[k].lo < cell.lo[k] || p[k].hi > cell.hi[k]) return kUnknown;
+    const double most = besideOf(table, texel, middle).foot.distance + glm::length(half) + table.radius * table.mostShare,
+                 bend = double(std::bit_cast<float>(texel[2])), turn = double(std::bit_cast<float>(texel[3]));
+    if (!(bend * most < 0.9)) return kUnknown;
+    const double along = (1 + 1e-9) / (1 - bend * most);
+    switch (channel) {
+        case SplineChannel::across:
+        case SplineChannel::up: return 1 + most * turn * along;
+        case SplineChannel::along: return along;
+        default: return table.shareSlope * along;
+    }
 }
 
 }  // namespace fw

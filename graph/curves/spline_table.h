@@ -92,5 +92,7 @@ SplineTablePtr splineTable(const SplinePtr& spline, double radius);
 SplineSample sampleSpline(const SplineTable& table, SplineChannel channel, const glm::dvec3& p);
 /// Contains every value over a box.
 Interval sampleSpline(const SplineTable& table, SplineChannel channel, const Interval* p);
+/// A Lipschitz constant of the channel over a box; infinity where none is known.
+double lipschitzConstant(const SplineTable& table, SplineChannel channel, const Interval* p);
 
 }  // namespace fw

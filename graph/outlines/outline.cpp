@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <numeric>
@@ -387,6 +388,13 @@ Interval sampleOutline(const Outline& outline, Interval x, Interval y) {
             : 1e-6 * far;
     const double reach = 0.5 * std::hypot(x.hi - x.lo, y.hi - y.lo) + rounding;
     return {std::max(centre - reach, outline.least - rounding), centre + reach};
+}
+
+double lipschitzConstant(const Outline& outline, Interval x, Interval y) {
+    const glm::dvec2 half = halfOf(outline, kOutlineLevels - 1), lo = outline.centre - half,
+                     hi = outline.centre + half;
+    const bool within = x.lo >= lo.x && x.hi <= hi.x && y.lo >= lo.y && y.hi <= hi.y;
+    return within ? 1.0 : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace fw

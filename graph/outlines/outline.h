@@ -83,5 +83,7 @@ OutlinePtr outlineThrough(std::span<const double> corners);
 OutlineSample sampleOutline(const Outline& outline, double x, double y);
 /// Contains every value with x and y in the intervals.
 Interval sampleOutline(const Outline& outline, Interval x, Interval y);
+/// A Lipschitz constant of the distance over the rectangle: 1, or infinity where it leaves the cells.
+double lipschitzConstant(const Outline& outline, Interval x, Interval y);
 
 }  // namespace fw
