@@ -2,7 +2,16 @@
 
 #include <algorithm>
 
+#include "graph/evaluate/local_lipschitz.h"
+
 namespace fw {
+
+namespace {
+
+/// Parts of a box over which a Lipschitz constant is proven.
+constexpr int kMaxLipschitzParts = 1025;
+
+}  // namespace
 
 std::array<IrId, 2 * kSurfaceComponents> Program::roots() const {
     std::array<IrId, 2 * kSurfaceComponents> all;
@@ -32,6 +41,14 @@ std::vector<float> Program::numbers() const {
 
 Region findRegion(const Program& program) {
     return findRegion(program.ir, program.distance(), program.parameters(), program.exactness.lipschitz);
+}
+
+Exactness exactnessWithin(const Program& program, const Box& box) {
+    Exactness exactness = program.exactness;
+    if (exactness.bound()) return exactness;
+    const Tape tape = makeTape(program.ir, program.distance(), program.parameters());
+    exactness.lipschitz = std::min(exactness.lipschitz, lipschitzOver(tape, box, kMaxLipschitzParts));
+    return exactness;
 }
 
 }  // namespace fw

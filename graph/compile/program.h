@@ -75,4 +75,8 @@ struct Program {
 /// Where the program's solid lies, its live values as they are.
 Region findRegion(const Program& program);
 
+/// The exactness within a box, its live values as they are: as declared, with the Lipschitz constant that
+/// interval differentiation proves there (local_lipschitz.h) where that is smaller. Takes milliseconds.
+Exactness exactnessWithin(const Program& program, const Box& box);
+
 }  // namespace fw
