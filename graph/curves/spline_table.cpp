@@ -498,7 +498,8 @@ double lipschitzConstant(const SplineTable& table, SplineChannel channel, const 
     if (!(texel[1] & kPlainCell)) return kUnknown;
     for (int k = 0; k < 3; ++k)
         if (p[k].lo < cell.lo[k] || p[k].hi > cell.hi[k]) return kUnknown;
-    const double most = besideOf(table, texel, middle).foot.distance + glm::length(half) + table.radius * table.mostShare,
+    const double most = besideOf(table, texel, middle).foot.distance + glm::length(half) +
+                        table.radius * table.mostShare,
                  bend = double(std::bit_cast<float>(texel[2])), turn = double(std::bit_cast<float>(texel[3]));
     if (!(bend * most < 0.9)) return kUnknown;
     const double along = (1 + 1e-9) / (1 - bend * most);

@@ -69,7 +69,7 @@ TEST(LocalLipschitz, IsUnknownWhereAFieldMayJump) {
                 1 / std::hypot(0.3, 0.1), 0.1);
 }
 
-/// Of solids that are deformed: at least what samples show, and near to what is known of the deformation.
+/// Deformed solids: the constant is at least as large as sampled quotients and close to the analytic bound.
 TEST(LocalLipschitz, OfDeformedSolids) {
     // A twist by r radians a metre shears by a = r d at the distance d from its axis; the norm of its
     // derivative is (a + sqrt(a² + 4)) / 2.
@@ -167,7 +167,7 @@ TEST(LocalLipschitz, OfProgramsWithinTheirRegions) {
     };
     const auto print = [](const char* name, const Numbers& numbers) {
         std::printf(
-            "%s: %d, of which %d have no declared constant. Of these %d have a bounded region, and %d get "
+            "%s: %d, of which %d have no declared constant. %d of these have a bounded region, and %d get "
             "a constant there; %d have none, and %d get a constant around the origin. %d declared "
             "constants above 1 get smaller. %.1f ms in all\n",
             name, numbers.all, numbers.unknown, numbers.unknown - numbers.notBounded, numbers.proven,

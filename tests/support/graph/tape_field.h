@@ -1,4 +1,4 @@
-// Fields for tests of what tapes tell of boxes, and pairs of points in these.
+// Fields with their tapes, and random pairs of points in a box, for tests of bounds over boxes.
 #pragma once
 
 #include <gtest/gtest.h>
