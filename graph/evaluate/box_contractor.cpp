@@ -13,7 +13,9 @@ namespace {
 constexpr int kMaxDepth = 400;    // of nested goals
 constexpr int kMaxRounds = 4;     // forwards and backwards through one cone
 constexpr int kMaxCaseDepth = 3;  // of nested cases
-constexpr std::size_t kMaxReplacements = 4;
+constexpr std::size_t kMaxReplacements = 4, kMaxSummands = 16, kMaxCases = 32;
+/// What going through the cases within one cone may cost.
+constexpr std::size_t kCaseSteps = 5'000, kCaseStepsEach = 40;
 
 double roundedUp(double value) { return value + std::abs(value) * 1e-15; }
 double roundedDown(double value) { return value - std::abs(value) * 1e-15; }
@@ -168,9 +170,10 @@ std::optional<Box> BoxContractor::reach(const Goal& whole, const Box& box, int d
             return goal.above ? either(-roundedDown(size), roundedDown(size))
                               : both(-roundedUp(size), roundedUp(size));
         }
-        default: break;
+        case Op::add:
+        case Op::subtract: return reachSum(goal, box, depth);
+        default: return propagate({{goal.id, wantedBy(goal.above, goal.level)}}, box, depth + 1);
     }
-    return propagate({{goal.id, wantedBy(goal.above, goal.level)}}, box, depth + 1);
 }
 
 /// A chain of smooth minima of width k is at most k below the sharp minimum of all: were it lower than a - k
@@ -264,8 +267,80 @@ std::vector<IrId> BoxContractor::coneOf(std::span<const Constraint> constraints)
     return cone;
 }
 
+/// The operands of nested operations `op`.
+std::vector<IrId> BoxContractor::operandsOf(IrId id, Op op) const {
+    std::vector<IrId> operands, pending{id};
+    while (!pending.empty() && operands.size() + pending.size() < kMaxCases) {
+        const IrId at = pending.back();
+        pending.pop_back();
+        if (ir[at].op != op)
+            operands.push_back(at);
+        else
+            pending.insert(pending.end(), {ir[at].operands[0], ir[at].operands[1]});
+    }
+    operands.insert(operands.end(), pending.begin(), pending.end());
+    return operands;
+}
+
+std::vector<BoxContractor::Summand> BoxContractor::summandsOf(IrId id) const {
+    std::vector<Summand> summands, pending{{id, false}};
+    while (!pending.empty()) {
+        const Summand at = pending.back();
+        const IrNode& node = ir[at.id];
+        pending.pop_back();
+        if ((node.op != Op::add && node.op != Op::subtract) ||
+            summands.size() + pending.size() >= kMaxSummands) {
+            summands.push_back(at);
+            continue;
+        }
+        pending.push_back({node.operands[0], at.isNegative});
+        pending.push_back({node.operands[1], at.isNegative != (node.op == Op::subtract)});
+    }
+    return summands;
+}
+
+std::optional<Box> BoxContractor::reachSum(const Goal& goal, const Box& box, int depth) {
+    const Constraint whole{goal.id, wantedBy(goal.above, goal.level)};
+    std::optional<Box> left = propagate({whole}, box, depth + 1, Effort::quick);
+    if (!left || isBounded(*left)) return left;
+    // Read as: the sum of the terms is at most `level`.
+    double level = goal.above ? -goal.level : goal.level;
+    std::vector<Summand> terms;
+    for (Summand term : summandsOf(goal.id)) {
+        term.isNegative = term.isNegative != goal.above;
+        const Interval range = everywhere[term.id];
+        if (isNumber(term.id))
+            level = roundedUp(level - (term.isNegative ? -range.hi : range.lo));
+        else
+            terms.push_back(term);
+    }
+    const auto leastOf = [&](const Summand& term) {
+        return term.isNegative ? -everywhere[term.id].hi : everywhere[term.id].lo;
+    };
+    const auto atMost = [&](const Summand& term, double most, const Box& within) {
+        return reach({term.id, term.isNegative, term.isNegative ? -most : most}, within, depth + 1);
+    };
+    for (const Summand& term : terms) {
+        double most = level;
+        for (const Summand& other : terms)
+            if (&other != &term) most = roundedUp(most - leastOf(other));
+        if (most >= kHuge) continue;
+        left = atMost(term, most, *left);
+        if (!left) return left;
+    }
+    if (!isBounded(*left)) left = propagate({whole}, *left, depth + 1);
+    if (!left || isBounded(*left) || terms.size() < 2) return left;
+    std::optional<Box> all;
+    const double part = roundedUp(level / double(terms.size()));
+    for (const Summand& term : terms) {
+        joinInto(all, atMost(term, part, *left));
+        if (all == left) break;
+    }
+    return all;
+}
+
 std::optional<Box> BoxContractor::propagate(std::vector<Constraint> constraints, const Box& box, int depth,
-                                            std::vector<Replacement> replacements) {
+                                            Effort effort, std::vector<Replacement> replacements) {
     if (depth > kMaxDepth || isSpent()) return box;
     const std::vector<IrId> cone = coneOf(constraints);
     for (std::size_t axis = 0; axis < 3; ++axis) current[axis] = sideOf(box, axis);
@@ -277,13 +352,15 @@ std::optional<Box> BoxContractor::propagate(std::vector<Constraint> constraints,
                    {current[0].hi, current[1].hi, current[2].hi}};
     };
     if (!narrow(cone, replacements, kMaxRounds)) return std::nullopt;
-    if (!isBounded(currentBox())) {
+    if (!isBounded(currentBox()) && effort == Effort::cases) {
         caseDepth = kMaxCaseDepth;
+        caseLimit = stepCount + kCaseSteps + kCaseStepsEach * cone.size();
         const bool isPossible = narrow(cone, replacements, kMaxRounds);
         caseDepth = 0;
         if (!isPossible) return std::nullopt;
     }
     const Box left = currentBox();
+    if (effort == Effort::quick) return left;
     if (isBounded(left) || replacements.size() >= kMaxReplacements) return left;
     const std::vector<Piece> pieces = piecesOfUnbounded(cone, replacements);
     if (pieces.empty()) return left;
@@ -293,7 +370,7 @@ std::optional<Box> BoxContractor::propagate(std::vector<Constraint> constraints,
         together.insert(together.end(), piece.constraints.begin(), piece.constraints.end());
         std::vector<Replacement> replaced = replacements;
         replaced.insert(replaced.end(), piece.replacements.begin(), piece.replacements.end());
-        joinInto(all, propagate(std::move(together), left, depth + 1, std::move(replaced)));
+        joinInto(all, propagate(std::move(together), left, depth + 1, effort, std::move(replaced)));
     }
     return all;
 }

@@ -11,6 +11,8 @@
 //   values and blends are taken apart in the same way; a smooth minimum of width k is at most k / 4 below
 //   the sharp one, a chain of them at most k.
 // * Everything else goes forwards and backwards through its operations on intervals (projections.h).
+// * A sum that must be small is taken apart if that bounds nothing: each term by the least values of the
+//   others; else at least one of n terms is at most its n-th part, as of a sum of metaballs.
 // * Two values that are a rotation of two others by a varying angle, x cos(a) + y sin(a) and
 //   y cos(a) - x sin(a), have the same length as those: so twisted and bent solids are bounded.
 // * The coordinates beside a spline bound the distance to it.
@@ -80,6 +82,13 @@ class BoxContractor {
         IrId id;
         Interval range;
     };
+    /// What propagate() does about a box that stays unbounded.
+    enum class Effort : unsigned char { quick, cases };
+    /// A term of a sum: value(id), or its negative.
+    struct Summand {
+        IrId id;
+        bool isNegative;
+    };
     /// p = x cos(a) +- y sin(a) and q = y cos(a) -+ x sin(a).
     struct Rotation {
         IrId p, q, x, y;
@@ -96,8 +105,9 @@ class BoxContractor {
     std::optional<Box> reachAny(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachAll(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachSelected(const Goal& goal, const Box& box, int depth);
+    std::optional<Box> reachSum(const Goal& goal, const Box& box, int depth);
     std::optional<Box> propagate(std::vector<Constraint> constraints, const Box& box, int depth,
-                                 std::vector<Replacement> replacements = {});
+                                 Effort effort = Effort::cases, std::vector<Replacement> replacements = {});
     /// One of the ways in which a piecewise linear value can be linear.
     struct Piece {
         std::vector<Constraint> constraints;
@@ -112,6 +122,8 @@ class BoxContractor {
     bool forwards(std::span<const IrId> cone, bool narrow);
     bool backwards(std::span<const IrId> cone);
     std::vector<std::vector<Constraint>> casesOf(IrId id) const;
+    std::vector<IrId> operandsOf(IrId id, Op op) const;
+    std::vector<Summand> summandsOf(IrId id) const;
     bool disjoin(IrId id);
     bool narrow(std::span<const IrId> cone, std::span<const Replacement> replacements, int rounds);
     bool projectNode(IrId id);
@@ -139,6 +151,7 @@ class BoxContractor {
     std::unordered_map<IrId, SplineUse> splines;        ///< by the smallest id of its channels
     std::vector<bool> isTurned;                         ///< is a result of a rotation
     int caseDepth = 0;                                  ///< of nested cases that backwards() may go through
+    std::size_t caseLimit = 0;                          ///< of stepCount, after which no more cases are tried
     std::size_t stepCount = 0, stepLimit = SIZE_MAX;
 };
 

@@ -97,6 +97,7 @@ std::vector<std::vector<BoxContractor::Constraint>> BoxContractor::casesOf(IrId 
     const IrNode& node = ir[id];
     const IrId a = node.operands[0], b = node.operands[1], c = node.operands[2];
     const Interval range = current[id];
+    std::vector<std::vector<Constraint>> cases;
     switch (node.op) {
         case Op::minimum:
         case Op::smoothMinimum: {
@@ -105,14 +106,17 @@ std::vector<std::vector<BoxContractor::Constraint>> BoxContractor::casesOf(IrId 
             if (current[a].lo > wanted.hi || current[b].lo > wanted.hi ||
                 (current[a].hi <= wanted.hi && current[b].hi <= wanted.hi))
                 return {};
-            return {{{a, wanted}}, {{b, wanted}}};
+            if (node.op == Op::smoothMinimum) return {{{a, wanted}}, {{b, wanted}}};
+            for (const IrId operand : operandsOf(id, node.op)) cases.push_back({{operand, wanted}});
+            return cases;
         }
         case Op::maximum: {
             const Interval wanted{range.lo - 1e-12 * std::abs(range.lo), kHuge};
             if (current[a].hi < wanted.lo || current[b].hi < wanted.lo ||
                 (current[a].lo >= wanted.lo && current[b].lo >= wanted.lo))
                 return {};
-            return {{{a, wanted}}, {{b, wanted}}};
+            for (const IrId operand : operandsOf(id, node.op)) cases.push_back({{operand, wanted}});
+            return cases;
         }
         case Op::select:
             if (current[a].isPoint()) return {};
@@ -125,7 +129,7 @@ std::vector<std::vector<BoxContractor::Constraint>> BoxContractor::casesOf(IrId 
 /// Narrows everything below a minimum, a maximum or a choice to the hull of what is left in its cases.
 bool BoxContractor::disjoin(IrId id) {
     const std::vector<std::vector<Constraint>> cases = casesOf(id);
-    if (cases.empty() || isSpent()) return true;
+    if (cases.empty() || stepCount > caseLimit) return true;
     --caseDepth;
     std::vector<Constraint> all;
     for (const auto& constraints : cases) all.insert(all.end(), constraints.begin(), constraints.end());

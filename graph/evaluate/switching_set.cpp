@@ -7,7 +7,7 @@ namespace fw {
 
 namespace {
 
-constexpr int kMaxVisits = 96, kMaxDepth = 16;
+constexpr int kMaxVisits = 96, kMaxSwitchDepth = 16;
 
 bool isEmpty(Interval a) { return a.lo > a.hi; }
 Interval common(Interval a, Interval b) { return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)}; }
@@ -142,7 +142,7 @@ bool SwitchingSet::isSmall(const Sum& sum, double tolerance) {
     for (int i = 0; i < sum.count; ++i) {
         const double factor = sum.factors[std::size_t(i)];
         if (factor == 0.0) continue;
-        const Interval term = again(sum.terms[std::size_t(i)], kMaxDepth);
+        const Interval term = again(sum.terms[std::size_t(i)], kMaxSwitchDepth);
         if (!isBounded(term)) return false;
         total = total + Interval{factor, factor} * term;
     }
@@ -160,8 +160,8 @@ bool SwitchingSet::meetWhereEqual(uint32_t g, uint32_t h, uint32_t a, uint32_t b
     if (!(size < kHuge)) return false;
     const double tolerance = std::min(kJumpRounding * size, kMaxJump);
     Sum switching, difference;
-    expand(switching, g, 1.0, kMaxDepth), expand(switching, h, -1.0, kMaxDepth);
-    expand(difference, a, 1.0, kMaxDepth), expand(difference, b, -1.0, kMaxDepth);
+    expand(switching, g, 1.0, kMaxSwitchDepth), expand(switching, h, -1.0, kMaxSwitchDepth);
+    expand(difference, a, 1.0, kMaxSwitchDepth), expand(difference, b, -1.0, kMaxSwitchDepth);
     if (difference.tooLong) return false;
     entries.clear();
     visits = kMaxVisits;
@@ -183,7 +183,7 @@ bool SwitchingSet::meetWhereEqual(uint32_t g, uint32_t h, uint32_t a, uint32_t b
     }
     entries.clear();
     visits = kMaxVisits;
-    if (!narrow(g, sides, kMaxDepth) || !narrow(h, sides, kMaxDepth)) return true;
+    if (!narrow(g, sides, kMaxSwitchDepth) || !narrow(h, sides, kMaxSwitchDepth)) return true;
     return isSmall(difference, tolerance) || isSmall(rest, tolerance);
 }
 
@@ -207,7 +207,7 @@ bool SwitchingSet::meetsAlong(uint32_t condition, uint32_t a, uint32_t b, int de
 bool SwitchingSet::branchesMeet(const Tape& tape_, const TapeValues& values_, uint32_t choice) {
     tape = &tape_, values = &values_;
     const auto& x = values->operands[choice - 3];
-    return meetsAlong(x[0], x[1], x[2], kMaxDepth);
+    return meetsAlong(x[0], x[1], x[2], kMaxSwitchDepth);
 }
 
 }  // namespace fw
