@@ -154,7 +154,10 @@ Lowered lowerChamferEdges(GraphLowering& lowering, const NodeAt& at) {
     if (!from.from || size == 0.0) return unchanged(at, from);
     const Measured now = measured(lowering, at, from.value.ids[distanceComponent], from.exactness.lipschitz,
                                   resolution, 0.0, size);
-    return loweredAs(lowering, at, from, now);
+    Lowered result = loweredAs(lowering, at, from, now);
+    // Neighbouring samples may be cut by different faces, so no Lipschitz constant is known.
+    if (!result.failed && now.distance) result.outputs[0].exactness = distorted();
+    return result;
 }
 
 Lowered lowerOffset(GraphLowering& lowering, const NodeAt& at) {

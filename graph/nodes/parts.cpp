@@ -43,7 +43,9 @@ std::vector<NodeType> partNodes() {
          .aliases = {"cogwheel"}},
         // The profile is that of ISO 68: flanks of 60 degrees, crests cut off by an eighth of their triangle,
         // roots by a quarter. It is looked up at the height that the turn about the axis leaves, folded into
-        // one pitch; that steepens it a little, which the factor takes back.
+        // one pitch; that steepens it a little, which the factor takes back. The slope of a turn grows
+        // towards the axis without limit. The flank is therefore clamped at the core: inside the core
+        // r - root is the minimum, and the factor is that of the core's radius.
         {.id = "thread",
          .label = "Thread",
          .category = Category::shape,
@@ -71,8 +73,9 @@ float lead = rise * starts;
 float u = p.y - lead * turned;
 u = abs(u - rise * round(u / rise));
 float flank = 0.5 * (r - outer) + 0.8660254 * (u - 0.0625 * rise);
-float steep = lead / (TAU * root);
-float d = min(r - root, max(r - outer, flank)) / sqrt(1.0 + 0.75 * steep * steep);
+float core = max(root - 0.325 * rise, 0.75 * root);
+float steep = lead / (TAU * core);
+float d = min(r - root, max(r - outer, flank, core - root)) / sqrt(1.0 + 0.75 * steep * steep);
 d = kind == "bolt" ? d + fit : d - fit;
 float end = abs(p.y) - 0.5 * height;
 if (kind == "bolt") d = max(d, (r - root + end) * 0.7071068);

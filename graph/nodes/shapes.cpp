@@ -330,7 +330,8 @@ return min(ext3(vec3(q.x, w.yz)), ext3(vec3(w.x, q.y, w.z)), ext3(vec3(w.xy, q.z
                         coordinate("offset", 0, "Distance of the plane from the origin along the normal."))},
          .outputs = kSurface,
          .exactness = always(kExact),
-         .body = "return dot(p, normalize(normal)) - offset;",
+         .body = "vec3 n = length(normal) > 0.0 ? normalize(normal) : vec3(0.0, 1.0, 0.0);\n"
+                 "return dot(p, n) - offset;",
          .aliases = {"half_space"}},
         {.id = "slab",
          .label = "Slab",
