@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "graph/base/words.h"
+#include "graph/compile/solid_query.h"
 #include "graph/document/input_value.h"
 #include "graph/document/named_parameters.h"
 #include "graph/document/unit.h"
@@ -398,6 +399,18 @@ void GraphLowering::classify(const NodeAt& at, const std::vector<NodeInput>& inp
     arguments.option = [&](std::string_view name) {
         const NodeInput* input = named(name);
         return input ? input->value.text : std::string();
+    };
+    arguments.within = [&](std::string_view name, const Point& normal, double offset) {
+        const NodeInput* input = named(name);
+        return input && isWithin(state.ir, input->value.ids[distanceComponent], normal, offset);
+    };
+    arguments.bounds = [&](std::string_view name, double level) {
+        const NodeInput* input = named(name);
+        return input ? levelBounds(state.ir, input->value.ids[distanceComponent], level) : std::nullopt;
+    };
+    arguments.mirrored = [&](std::string_view name, int axis) {
+        const NodeInput* input = named(name);
+        return input && isMirrored(state.ir, input->value.ids[distanceComponent], axis);
     };
     surface.exactness = plain ? at.type.exactness(arguments) : distorted();
     if (surface.exactness.exact())

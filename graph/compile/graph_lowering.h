@@ -177,6 +177,11 @@ Lowered lowerRoundEdges(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerChamferEdges(GraphLowering& lowering, const NodeAt& at);
 /// The body of `offset` and `shell`, with a warning about distances that are not true.
 Lowered lowerOffset(GraphLowering& lowering, const NodeAt& at);
+// repetitions.cpp:
+/// The body of a repetition, with a warning if the surface does not fit into its cell or sector.
+Lowered lowerRepeat(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerPolarRepeat(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerScatter(GraphLowering& lowering, const NodeAt& at);
 // splines.cpp:
 /// The body of `sweep`, with a bound that tells intervals where nothing is.
 Lowered lowerSweep(GraphLowering& lowering, const NodeAt& at);

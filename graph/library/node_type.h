@@ -22,6 +22,7 @@
 #include <string_view>
 #include <vector>
 
+#include "graph/base/box.h"
 #include "graph/base/file_kind.h"
 #include "graph/library/types.h"
 
@@ -106,6 +107,14 @@ struct ExactnessArguments {
     std::function<std::optional<double>(std::string_view, int component)> constant;
     /// Chosen string of the named enum input.
     std::function<std::string(std::string_view)> option;
+    /// Whether the solid of the named surface is proven to be inside the half-space dot(normal, p) <= offset.
+    /// `normal` has unit length. Runs a search in space at each call.
+    std::function<bool(std::string_view, const Point& normal, double offset)> within;
+    /// A box that is proven to contain all points where the named surface's distance is below `level`. The
+    /// box is inverted (lo > hi) if no such point exists, and nullopt if the search finds no bounds.
+    std::function<std::optional<Box>(std::string_view, double level)> bounds;
+    /// Whether the named surface's distance is proven not to change if this coordinate changes its sign.
+    std::function<bool(std::string_view, int axis)> mirrored;
 };
 using ExactnessRule = std::function<Exactness(const ExactnessArguments&)>;
 

@@ -120,6 +120,10 @@ std::string exactnessText(const NodeType& type) {
         return value && i < value->numbers.size() ? std::optional(value->numbers[i]) : std::nullopt;
     };
     arguments.option = [&](std::string_view name) { return input(name) ? input(name)->text : std::string(); };
+    // The page describes nodes that are used as intended: the surface fits.
+    arguments.within = [](std::string_view, const Point&, double) { return true; };
+    arguments.bounds = [](std::string_view, double) { return Box{}; };
+    arguments.mirrored = [](std::string_view, int) { return false; };
     return exactnessText(type.exactness(arguments));
 }
 

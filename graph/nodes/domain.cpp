@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "graph/compile/graph_lowering.h"
+#include "graph/compile/repetitions.h"
 #include "graph/nodes/inputs.h"
 
 namespace fw {
@@ -24,13 +25,6 @@ Exactness offsetBy(const ExactnessArguments& node, std::optional<double> distanc
     const Exactness a = node.surface("surface");
     if (!distance) return distorted(a.lipschitz);
     return {a.outside && *distance >= 0, a.inside && *distance <= 0, a.lipschitz};
-}
-
-/// With the neighbours looked at, copies that stay in their cells are a union of copies. Without, the field
-/// jumps.
-Exactness repeated(const ExactnessArguments& node) {
-    const Exactness a = node.surface("surface");
-    return node.constant("neighbours", 0) == 1.0 ? Exactness{a.outside, false, a.lipschitz} : distorted();
 }
 
 InputSpec neighbours() {
@@ -183,7 +177,7 @@ std::vector<NodeType> repetitions() {
                      .doc = "Number of copies along x, y and z; 0 is endless."},
                     neighbours()},
          .outputs = kSurface,
-         .exactness = repeated,
+         .exactness = repeatExactness,
          .body = R"(
 // Offsets of x from the two copies that enclose it; both the same where there is one.
 vec2 enclosing(float x, float period, float count) {
@@ -226,6 +220,7 @@ for (int i = 0; i < 2; i++) {
     }
 }
 return s;)",
+         .lower = lowerRepeat,
          .aliases = {"array"}},
         // Of the 27 cells about p all copies are looked at. A copy reaches at most half a period beyond its
         // cell, so
@@ -251,7 +246,7 @@ return s;)",
               share("chance", 1, "Share of the cells that have a copy."),
               integer("seed", 0, 0, 1000000, "Another number gives another pattern.")},
          .outputs = kSurface,
-         .exactness = weakened,
+         .exactness = scatterExactness,
          .body = R"(
 float own(float x, float period) { return period > 0.0 ? floor(x / period + 0.5) : 0.5; }
 vec3 home = vec3(own(p.x, period.x), own(p.y, period.y), own(p.z, period.z));
@@ -273,7 +268,8 @@ for (int i = 0; i < 27; i++) {
     copy = with_distance(copy, (chance >= 1.0 || kind.z < chance) ? min(copy.distance * size, reach) : reach);
     if (i == 0) s = copy; else s = min(s, copy);
 }
-return s;)"},
+return s;)",
+         .lower = lowerScatter},
         // u points to the first copy, v a quarter turn on. Up to four copies are each looked at: their
         // rotations are constants, so intervals are as narrow as those of one. Of more, the two that enclose
         // p, as in repeat, but in the angle. It jumps from copy to copy alone: where the cut of atan2 would
@@ -293,7 +289,7 @@ return s;)"},
                             "Direction of the axis through the origin; its length does not matter.")),
               neighbours()},
          .outputs = kSurface,
-         .exactness = repeated,
+         .exactness = polarRepeatExactness,
          .body = std::string(kRotation) + R"(
 float n = max(round(count), 1.0);
 if (n == 1.0) return surface(p);
@@ -328,6 +324,7 @@ angle = mod(angle, width);
 vec2 q = r * vec2(cos(angle), sin(angle));
 vec2 next = vec2(q.x * cos(width) + q.y * sin(width), q.y * cos(width) - q.x * sin(width));
 return min(surface(w * height + u * q.x + v * q.y), surface(w * height + u * next.x + v * next.y));)",
+         .lower = lowerPolarRepeat,
          .aliases = {"circular_repeat", "radial_repeat"}},
     };
 }
