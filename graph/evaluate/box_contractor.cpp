@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-
-#include "graph/evaluate/region.h"
+#include <random>
 
 namespace fw {
 
@@ -13,6 +12,11 @@ namespace {
 constexpr int kMaxDepth = 400;    // of nested goals
 constexpr int kMaxRounds = 4;     // forwards and backwards through one cone
 constexpr int kMaxCaseDepth = 3;  // of nested cases
+/// Of shells around the origin.
+constexpr double kShellRatio = 4.0, kSmallestShell = 1.0 / 1024.0;
+constexpr std::size_t kShellSteps = 300'000;
+constexpr int kMaxShellSplits = 24, kShellSamples = 64;
+constexpr double kSmallestFactor = 1e-12;
 constexpr std::size_t kMaxReplacements = 4, kMaxSummands = 16, kMaxCases = 32;
 /// What going through the cases within one cone may cost.
 constexpr std::size_t kCaseSteps = 5'000, kCaseStepsEach = 40;
@@ -88,7 +92,12 @@ std::vector<BoxContractor::Part> BoxContractor::parts(IrId root, const Box& with
 }
 
 std::optional<Box> BoxContractor::contract(IrId root, double level, const Box& box) {
-    return reach({root, false, level}, box, 0);
+    std::optional<Box> left = reach({root, false, level}, box, 0);
+    if (!left || isBounded(*left)) return left;
+    usesShells = true;
+    left = reach({root, false, level}, *left, 0);
+    usesShells = false;
+    return left;
 }
 
 BoxContractor::Goal BoxContractor::peeled(Goal goal) const {
@@ -170,10 +179,67 @@ std::optional<Box> BoxContractor::reach(const Goal& whole, const Box& box, int d
             return goal.above ? either(-roundedDown(size), roundedDown(size))
                               : both(-roundedUp(size), roundedUp(size));
         }
-        case Op::add:
-        case Op::subtract: return reachSum(goal, box, depth);
-        default: return propagate({{goal.id, wantedBy(goal.above, goal.level)}}, box, depth + 1);
+        default: return reachLeaf(goal, box, depth);
     }
+}
+
+std::optional<Box> BoxContractor::reachLeaf(const Goal& goal, const Box& box, int depth) {
+    const Op op = ir[goal.id].op;
+    const std::optional<Box> left =
+        op == Op::add || op == Op::subtract
+            ? reachSum(goal, box, depth)
+            : propagate({{goal.id, wantedBy(goal.above, goal.level)}}, box, depth + 1);
+    return left && !isBounded(*left) && usesShells ? reachFromOutside(goal, *left, depth) : left;
+}
+
+/// Proves the shells around the origin free of the goal, from kFarthest inwards.
+std::optional<Box> BoxContractor::reachFromOutside(const Goal& goal, const Box& box, int depth) {
+    const auto [found, isNew] = shells.try_emplace({goal.id, goal.above, goal.level}, kAllSpace);
+    std::optional<Box>& known = found->second;
+    if (isNew) {
+        // From all of space, whatever the box at hand, for the result serves other boxes too.
+        std::optional<Box> outer = propagate({{goal.id, wantedBy(goal.above, goal.level)}},
+                                             cubeAround(kFarthest), depth + 1, Effort::quick);
+        shellLimit = stepCount + kShellSteps;
+        bool isFree = outer && !isSeenFarAway(goal, *outer);
+        for (double size = kFarthest / kShellRatio; isFree && outer && size > kSmallestShell;
+             size /= kShellRatio) {
+            const std::optional<Box> inner = common(*outer, cubeAround(size));
+            if (inner == outer) continue;
+            for (const Box& slab : boxesAround(*outer, inner))
+                isFree = isFree && isUnreachable(goal, slab, kMaxShellSplits, depth);
+            if (isFree) outer = inner;
+        }
+        if (!outer || longestSide(*outer) < kFarthest) known = outer;
+    }
+    if (!known) return std::nullopt;
+    return common(*known, box);
+}
+
+/// Whether the goal is met at some sample in the outermost shell.
+bool BoxContractor::isSeenFarAway(const Goal& goal, const Box& box) {
+    const std::vector<IrId> cone = coneOf(std::array{Constraint{goal.id, {}}});
+    std::mt19937 random(1);
+    const auto unit = [&] { return double(random() >> 8) / double(1 << 24); };
+    for (int i = 0; i < kShellSamples; ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double at = std::lerp(box.lo[axis], box.hi[axis], i % 2 ? std::round(unit()) : unit());
+            current[axis] = {at, at};
+        }
+        forwards(cone, false);
+        if (goal.above ? current[goal.id].hi >= goal.level : current[goal.id].lo <= goal.level) return true;
+    }
+    return false;
+}
+
+bool BoxContractor::isUnreachable(const Goal& goal, const Box& box, int splits, int depth) {
+    const std::optional<Box> left =
+        propagate({{goal.id, wantedBy(goal.above, goal.level)}}, box, depth + 1, Effort::quick);
+    if (!left) return true;
+    if (splits == 0 || stepCount > shellLimit || isSpent()) return false;
+    for (const Box& half : halvesOf(*left))
+        if (!isUnreachable(goal, half, splits - 1, depth)) return false;
+    return true;
 }
 
 /// A chain of smooth minima of width k is at most k below the sharp minimum of all: were it lower than a - k
@@ -237,6 +303,8 @@ std::optional<Box> BoxContractor::reachSelected(const Goal& goal, const Box& box
     for (const std::size_t branch : {1, 2}) {
         const IrId value = node.operands[branch];
         std::optional<Box> part = reach({value, goal.above, goal.level}, box, depth + 1);
+        if (part && !isBounded(*part) && !mayBeNaN[condition])
+            part = reachCondition(condition, branch == 1, *part, depth + 1);
         if (part && !isBounded(*part) && !mayBeNaN[condition] && !isNumber(value)) {
             const double truth = branch == 1 ? 1.0 : 0.0;
             part = propagate({{condition, {truth, truth}}, {value, wantedBy(goal.above, goal.level)}}, *part,
@@ -267,6 +335,33 @@ std::vector<IrId> BoxContractor::coneOf(std::span<const Constraint> constraints)
     return cone;
 }
 
+/// Where a condition can be true, or false.
+std::optional<Box> BoxContractor::reachCondition(IrId id, bool truth, const Box& box, int depth) {
+    if (depth > kMaxDepth || isSpent() || mayBeNaN[id]) return box;
+    const IrNode& node = ir[id];
+    const IrId a = node.operands[0], b = node.operands[1];
+    switch (node.op) {
+        case Op::logicalNot: return reachCondition(a, !truth, box, depth + 1);
+        case Op::logicalAnd:
+        case Op::logicalOr: {
+            const std::optional<Box> first = reachCondition(a, truth, box, depth + 1);
+            if (truth == (node.op == Op::logicalAnd))
+                return first ? reachCondition(b, truth, *first, depth + 1) : std::nullopt;
+            std::optional<Box> all = first;
+            joinInto(all, reachCondition(b, truth, box, depth + 1));
+            return all;
+        }
+        case Op::less:
+        case Op::lessEqual:
+            if (isNumber(b))
+                return reach({a, !truth, truth ? everywhere[b].hi : everywhere[b].lo}, box, depth + 1);
+            if (isNumber(a))
+                return reach({b, truth, truth ? everywhere[a].lo : everywhere[a].hi}, box, depth + 1);
+            return box;
+        default: return box;
+    }
+}
+
 /// The operands of nested operations `op`.
 std::vector<IrId> BoxContractor::operandsOf(IrId id, Op op) const {
     std::vector<IrId> operands, pending{id};
@@ -282,19 +377,29 @@ std::vector<IrId> BoxContractor::operandsOf(IrId id, Op op) const {
     return operands;
 }
 
+/// The sum that a value is, with equal terms collected: a + (b - a) t as (1 - t) a + t b.
 std::vector<BoxContractor::Summand> BoxContractor::summandsOf(IrId id) const {
-    std::vector<Summand> summands, pending{{id, false}};
+    std::vector<Summand> summands, pending{{id, 1.0}};
     while (!pending.empty()) {
         const Summand at = pending.back();
         const IrNode& node = ir[at.id];
         pending.pop_back();
-        if ((node.op != Op::add && node.op != Op::subtract) ||
-            summands.size() + pending.size() >= kMaxSummands) {
+        const IrId a = node.operands[0], b = node.operands[1];
+        const auto isFactor = [&](IrId value) { return isNumber(value) && everywhere[value].isPoint(); };
+        const bool isFull = summands.size() + pending.size() >= kMaxSummands;
+        if (!isFull && (node.op == Op::add || node.op == Op::subtract)) {
+            pending.push_back({a, at.factor});
+            pending.push_back({b, node.op == Op::subtract ? -at.factor : at.factor});
+        } else if (!isFull && node.op == Op::negate) {
+            pending.push_back({a, -at.factor});
+        } else if (!isFull && node.op == Op::multiply && (isFactor(a) || isFactor(b))) {
+            pending.push_back({isFactor(a) ? b : a, at.factor * everywhere[isFactor(a) ? a : b].lo});
+        } else if (const auto same = std::ranges::find(summands, at.id, &Summand::id);
+                   same != summands.end()) {
+            same->factor += at.factor;
+        } else {
             summands.push_back(at);
-            continue;
         }
-        pending.push_back({node.operands[0], at.isNegative});
-        pending.push_back({node.operands[1], at.isNegative != (node.op == Op::subtract)});
     }
     return summands;
 }
@@ -304,26 +409,29 @@ std::optional<Box> BoxContractor::reachSum(const Goal& goal, const Box& box, int
     std::optional<Box> left = propagate({whole}, box, depth + 1, Effort::quick);
     if (!left || isBounded(*left)) return left;
     // Read as: the sum of the terms is at most `level`.
+    const auto valuesOf = [&](const Summand& term) {
+        return Interval{term.factor, term.factor} * everywhere[term.id];
+    };
     double level = goal.above ? -goal.level : goal.level;
     std::vector<Summand> terms;
     for (Summand term : summandsOf(goal.id)) {
-        term.isNegative = term.isNegative != goal.above;
-        const Interval range = everywhere[term.id];
+        if (goal.above) term.factor = -term.factor;
         if (isNumber(term.id))
-            level = roundedUp(level - (term.isNegative ? -range.hi : range.lo));
-        else
+            level = roundedUp(level - valuesOf(term).lo);
+        else if (std::abs(term.factor) > kSmallestFactor)
             terms.push_back(term);
+        else if (term.factor != 0.0)
+            return propagate({whole}, *left, depth + 1);
     }
-    const auto leastOf = [&](const Summand& term) {
-        return term.isNegative ? -everywhere[term.id].hi : everywhere[term.id].lo;
-    };
     const auto atMost = [&](const Summand& term, double most, const Box& within) {
-        return reach({term.id, term.isNegative, term.isNegative ? -most : most}, within, depth + 1);
+        const Interval bound = Interval{most, most} / Interval{term.factor, term.factor};
+        return reach({term.id, term.factor < 0.0, term.factor < 0.0 ? bound.lo : bound.hi}, within,
+                     depth + 1);
     };
     for (const Summand& term : terms) {
         double most = level;
         for (const Summand& other : terms)
-            if (&other != &term) most = roundedUp(most - leastOf(other));
+            if (&other != &term) most = roundedUp(most - valuesOf(other).lo);
         if (most >= kHuge) continue;
         left = atMost(term, most, *left);
         if (!left) return left;

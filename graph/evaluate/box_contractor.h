@@ -23,6 +23,8 @@
 //   case, and every value gets the hull of its intervals in the cases (constructive disjunction). Terms of
 //   linear combinations that are piecewise linear, as |x|, are replaced by each of their pieces: so mirrored
 //   solids are bounded.
+// * What is still unbounded is proven empty from kFarthest inwards, shell by shell: so solids of polynomials
+//   are bounded. Beyond kFarthest nothing is known of these.
 //
 // Points where f is not a number are outside, as for the mesher. A minimum is taken to ignore an operand that
 // is NaN, as IEEE 754's minNum does, and a comparison with NaN is false; so nothing is concluded there from
@@ -32,8 +34,10 @@
 // Lifetime: belongs to one thread and one Ir, which must outlive it.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -43,6 +47,10 @@
 #include "graph/ir/ir.h"
 
 namespace fw {
+
+/// Up to this coordinate solids are searched for that only a search over space bounds, in units of the
+/// document.
+inline constexpr double kFarthest = 16384.0;
 
 /// All of space; its ends stand for infinity, as those of intervals.
 inline constexpr Box kAllSpace{{-kHuge, -kHuge, -kHuge}, {kHuge, kHuge, kHuge}};
@@ -84,10 +92,10 @@ class BoxContractor {
     };
     /// What propagate() does about a box that stays unbounded.
     enum class Effort : unsigned char { quick, cases };
-    /// A term of a sum: value(id), or its negative.
+    /// A term of a sum.
     struct Summand {
         IrId id;
-        bool isNegative;
+        double factor;
     };
     /// p = x cos(a) +- y sin(a) and q = y cos(a) -+ x sin(a).
     struct Rotation {
@@ -105,6 +113,11 @@ class BoxContractor {
     std::optional<Box> reachAny(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachAll(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachSelected(const Goal& goal, const Box& box, int depth);
+    std::optional<Box> reachLeaf(const Goal& goal, const Box& box, int depth);
+    std::optional<Box> reachFromOutside(const Goal& goal, const Box& box, int depth);
+    bool isSeenFarAway(const Goal& goal, const Box& box);
+    bool isUnreachable(const Goal& goal, const Box& box, int splits, int depth);
+    std::optional<Box> reachCondition(IrId id, bool truth, const Box& box, int depth);
     std::optional<Box> reachSum(const Goal& goal, const Box& box, int depth);
     std::optional<Box> propagate(std::vector<Constraint> constraints, const Box& box, int depth,
                                  Effort effort = Effort::cases, std::vector<Replacement> replacements = {});
@@ -151,7 +164,11 @@ class BoxContractor {
     std::unordered_map<IrId, SplineUse> splines;        ///< by the smallest id of its channels
     std::vector<bool> isTurned;                         ///< is a result of a rotation
     int caseDepth = 0;                                  ///< of nested cases that backwards() may go through
-    std::size_t caseLimit = 0;                          ///< of stepCount, after which no more cases are tried
+    bool usesShells = false;                            ///< in reachLeaf()
+    /// Of goals that only shells bound: their boxes; nothing is known beyond kFarthest.
+    std::map<std::tuple<IrId, bool, double>, std::optional<Box>> shells;
+    std::size_t shellLimit = 0;  ///< of stepCount, for the shells at hand
+    std::size_t caseLimit = 0;   ///< of stepCount, after which no more cases are tried
     std::size_t stepCount = 0, stepLimit = SIZE_MAX;
 };
 

@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "graph/evaluate/box_contractor.h"
-#include "graph/evaluate/region.h"
 
 namespace fw {
 
@@ -194,6 +193,17 @@ bool BoxContractor::projectNode(IrId id) {
         isUndefined |= mayBeNaN[node.operands[std::size_t(i)]];
     }
     if (isUndefined && ignoresNaN(node.op)) return true;
+    if (node.op == Op::multiply) {  // x x^2 has the sign of x
+        for (const std::size_t i : {0, 1}) {
+            const IrId x = node.operands[i], other = node.operands[1 - i];
+            if (ir[other].op != Op::square || ir[other].operands[0] != x || isNumber(x)) continue;
+            const Interval root{current[id].lo > -kHuge ? std::cbrt(current[id].lo) : -kHuge,
+                                current[id].hi < kHuge ? std::cbrt(current[id].hi) : kHuge};
+            if (!intersect(current[x],
+                           outward(root.lo - 1e-14 * std::abs(root.lo), root.hi + 1e-14 * std::abs(root.hi))))
+                return false;
+        }
+    }
     const SampledLayer layer = samplesLayer(node.op) ? ir.layer(node) : SampledLayer{};
     if (!projectOperands(node.op, current[id], operands, layer)) return false;
     for (int i = 0; i < arity; ++i) {

@@ -5,8 +5,6 @@
 #include <random>
 #include <utility>
 
-#include "graph/evaluate/region.h"
-
 namespace fw {
 
 namespace {
@@ -26,15 +24,6 @@ constexpr std::size_t kWorthSimplifying = 16;
 /// A face is tight if it is closer to a point inside than this share of the hull's longest side.
 constexpr double kTight = 0.004;
 constexpr int kShaveHalvings = 7, kPreciseHalvings = 22;
-
-std::array<Box, 2> halvesOf(const Box& cell) {
-    std::size_t axis = 0;
-    for (const std::size_t other : {1, 2})
-        if (cell.hi[other] - cell.lo[other] > cell.hi[axis] - cell.lo[axis]) axis = other;
-    std::array<Box, 2> result = {cell, cell};
-    result[0].hi[axis] = result[1].lo[axis] = 0.5 * (cell.lo[axis] + cell.hi[axis]);
-    return result;
-}
 
 /// The hull may shrink if the cell is split.
 bool touchesFace(const Box& hull, const Box& cell) {

@@ -11,39 +11,8 @@ namespace fw {
 
 namespace {
 
-constexpr double kShellRatio = 4.0;  // of a shell's outer and inner size
-constexpr double kSmallestShell = 1.0 / 1024.0;
-constexpr std::size_t kShellSteps = 4'000'000;  // of operations on intervals, for one part
+constexpr std::size_t kPartSteps = 4'000'000;  // of operations on intervals, for one part
 constexpr std::size_t kContractionSteps = 20'000'000;
-constexpr int kMaxShellSplits = 24;
-
-std::optional<Box> common(const Box& a, const Box& b) {
-    Box box;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.lo[axis] = std::max(a.lo[axis], b.lo[axis]);
-        box.hi[axis] = std::min(a.hi[axis], b.hi[axis]);
-        if (box.lo[axis] > box.hi[axis]) return std::nullopt;
-    }
-    return box;
-}
-
-Box cube(double size) { return {{-size, -size, -size}, {size, size, size}}; }
-
-/// Up to six boxes that fill `outer` around `inner`, which lies within it.
-std::vector<Box> around(Box outer, const Box& inner) {
-    std::vector<Box> slabs;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (outer.lo[axis] < inner.lo[axis]) {
-            slabs.push_back(outer);
-            slabs.back().hi[axis] = outer.lo[axis] = inner.lo[axis];
-        }
-        if (outer.hi[axis] > inner.hi[axis]) {
-            slabs.push_back(outer);
-            slabs.back().lo[axis] = outer.hi[axis] = inner.hi[axis];
-        }
-    }
-    return slabs;
-}
 
 /// Bounds a part that the contractor alone does not bound.
 class ShellSearch {
@@ -58,15 +27,15 @@ class ShellSearch {
 
     /// The part's region within `box`.
     Region bound(IrId part, const Box& box) {
-        std::optional<Box> outer = common(box, cube(kFarthest));
+        std::optional<Box> outer = common(box, cubeAround(kFarthest));
         if (!outer) return {Extent::empty, {}, {}};
         if (reachesTo(*outer)) return {Extent::unbounded, {}, *outer};
         for (double size = kFarthest / kShellRatio; size > kSmallestShell; size /= kShellRatio) {
-            const std::optional<Box> inner = common(*outer, cube(size));
+            const std::optional<Box> inner = common(*outer, cubeAround(size));
             if (inner == outer) continue;
-            const std::size_t limit = contractor.steps() + pointSteps + kShellSteps;
+            const std::size_t limit = contractor.steps() + pointSteps + kPartSteps;
             std::optional<Box> left;
-            for (const Box& slab : around(*outer, inner.value_or(Box{})))
+            for (const Box& slab : boxesAround(*outer, inner))
                 if (!isEmpty(part, slab, limit, kMaxShellSplits, left)) break;
             if (left && size == kFarthest / kShellRatio) return {Extent::unproven, *outer, *left};
             if (left) return {Extent::bounded, *outer, {}};
@@ -109,16 +78,9 @@ class ShellSearch {
             left = box;
             return false;
         }
-        std::size_t axis = 0;
-        for (const std::size_t other : {1, 2})
-            if (box->hi[other] - box->lo[other] > box->hi[axis] - box->lo[axis]) axis = other;
-        Box half = *box;
-        const double middle = 0.5 * (box->lo[axis] + box->hi[axis]);
-        half.hi[axis] = middle;
-        if (!isEmpty(part, half, limit, splits - 1, left)) return false;
-        half = *box;
-        half.lo[axis] = middle;
-        return isEmpty(part, half, limit, splits - 1, left);
+        for (const Box& half : halvesOf(*box))
+            if (!isEmpty(part, half, limit, splits - 1, left)) return false;
+        return true;
     }
 
     bool isFarFromSurface(const Box& box) {
@@ -145,19 +107,6 @@ class ShellSearch {
 };
 
 }  // namespace
-
-Box joined(const Box& a, const Box& b) {
-    Box box;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.lo[axis] = std::min(a.lo[axis], b.lo[axis]);
-        box.hi[axis] = std::max(a.hi[axis], b.hi[axis]);
-    }
-    return box;
-}
-
-double longestSide(const Box& box) {
-    return std::max({0.0, box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]});
-}
 
 Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters, double lipschitz,
                   std::stop_token stop) {

@@ -3,8 +3,8 @@
 // 1. The solid is split into the operands of its outermost minimum, and each is bounded on its own by going
 //    backwards through its expression from all of space (box_contractor.h). A ball far away is bounded no
 //    matter how distorted the solid next to it is.
-// 2. A part that this cannot bound is proven empty shell by shell, from kFarthest inwards, by contracting
-//    cells of the shell and by the field's Lipschitz constant.
+// 2. A part that this cannot bound is proven empty shell by shell, from kFarthest inwards, by the field's
+//    Lipschitz constant and by contracting cells of the shells.
 // 3. The hull of all parts is refined by intervals over cells (hull_refinement.h).
 //
 // Nothing is known by samples, with one exception: points inside the solid at kFarthest tell "unbounded" from
@@ -16,6 +16,7 @@
 #include <stop_token>
 
 #include "graph/base/result.h"
+#include "graph/evaluate/box_contractor.h"
 #include "graph/evaluate/evaluate.h"
 
 namespace fw {
@@ -35,20 +36,10 @@ struct Region {
     Box unproven;  ///< where nothing is proven, within kFarthest
 };
 
-/// Up to this coordinate solids that nothing else bounds are searched for, in units of the document. Single
-/// precision, in which devices evaluate fields, has no fractions of a tenth beyond.
-inline constexpr double kFarthest = 1048576.0;
-
 /// `lipschitz`: of the distance, infinite where it is not known. `stop`: ends the search soon; the result is
 /// then unproven.
 Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters,
                   double lipschitz = std::numeric_limits<double>::infinity(), std::stop_token stop = {});
-
-/// The smallest box that contains both.
-Box joined(const Box& a, const Box& b);
-
-/// The box's longest side; 0 if none has a length.
-double longestSide(const Box& box);
 
 /// `box` grown on every side by `cells` cells of the grid that has `resolution` cells along the longest side
 /// of the result.
