@@ -4,6 +4,9 @@
 #include <cassert>
 #include <cmath>
 #include <random>
+#include <utility>
+
+#include "graph/evaluate/frame_cut.h"
 
 namespace fw {
 
@@ -43,7 +46,7 @@ bool isBounded(const Box& box) {
 }
 
 BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters)
-    : ir(ir_), everywhere(ir.size()), mayBeNaN(ir.size()), stamps(ir.size()) {
+    : ir(ir_), everywhere(ir.size()), mayBeNaN(ir.size()), stamps(ir.size()), evaluatedIn(ir.size()) {
     for (IrId id = 0; id < ir.size(); ++id) {
         const IrNode& node = ir[id];
         current.swap(everywhere);
@@ -59,6 +62,7 @@ BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters
         current.swap(everywhere);
     }
     current = everywhere;
+    frame.isAtom.resize(ir.size());
     findUndefined();
     findRotations();
     findSplines();
@@ -70,6 +74,19 @@ Interval BoxContractor::evaluate(IrId id) const {
     const OpInfo& info = opInfo(node.op);
     for (int i = 0; i < info.arity; ++i) operands[i] = current[node.operands[std::size_t(i)]];
     return info.interval(operands, samplesLayer(node.op) ? ir.layer(node) : SampledLayer{});
+}
+
+Box BoxContractor::variableBox() const {
+    Box box;
+    for (std::size_t axis = 0; axis < frame.count; ++axis) {
+        box.lo[axis] = current[frame.variables[axis]].lo;
+        box.hi[axis] = current[frame.variables[axis]].hi;
+    }
+    return box;
+}
+
+void BoxContractor::setVariables(const Box& box) {
+    for (std::size_t axis = 0; axis < frame.count; ++axis) current[frame.variables[axis]] = sideOf(box, axis);
 }
 
 std::vector<BoxContractor::Part> BoxContractor::parts(IrId root, const Box& within) {
@@ -94,14 +111,14 @@ std::vector<BoxContractor::Part> BoxContractor::parts(IrId root, const Box& with
 std::optional<Box> BoxContractor::contract(IrId root, double level, const Box& box) {
     std::optional<Box> left = reach({root, false, level}, box, 0);
     if (!left || isBounded(*left)) return left;
-    usesShells = true;
+    isThorough = true;
     left = reach({root, false, level}, *left, 0);
-    usesShells = false;
+    isThorough = false;
     return left;
 }
 
 BoxContractor::Goal BoxContractor::peeled(Goal goal) const {
-    while (true) {
+    while (!isVariable(goal.id)) {
         const IrNode& node = ir[goal.id];
         const IrId a = node.operands[0], b = node.operands[1];
         const bool firstIsNumber = opInfo(node.op).arity == 2 && isNumber(a),
@@ -136,10 +153,11 @@ BoxContractor::Goal BoxContractor::peeled(Goal goal) const {
         goal = {rest, above, above ? level.lo : level.hi};
         if (std::abs(goal.level) >= kHuge) return goal;
     }
+    return goal;
 }
 
 bool BoxContractor::isUnion(const Goal& goal) const {
-    const Op op = ir[goal.id].op;
+    const Op op = opOf(goal.id);
     return goal.above ? op == Op::maximum : op == Op::minimum || op == Op::smoothMinimum;
 }
 
@@ -150,6 +168,12 @@ std::optional<Box> BoxContractor::reach(const Goal& whole, const Box& box, int d
     if (goal.above ? range.hi < goal.level : range.lo > goal.level) return std::nullopt;
     if (goal.above ? range.lo >= goal.level : range.hi <= goal.level) return box;
     if (std::abs(goal.level) >= kHuge) return box;
+    if (!isThorough) return reachTakenApart(goal, box, depth);
+    const std::optional<Box> left = reachThroughCut(goal, box, depth);
+    return left && !isBounded(*left) ? reachTakenApart(goal, *left, depth) : left;
+}
+
+std::optional<Box> BoxContractor::reachTakenApart(const Goal& goal, const Box& box, int depth) {
     const IrNode& node = ir[goal.id];
     const IrId a = node.operands[0];
     const auto both = [&](double least, double most) -> std::optional<Box> {  // least <= a <= most
@@ -161,7 +185,7 @@ std::optional<Box> BoxContractor::reach(const Goal& whole, const Box& box, int d
         joinInto(all, reach({a, true, least}, box, depth + 1));
         return all;
     };
-    switch (node.op) {
+    switch (opOf(goal.id)) {
         case Op::minimum:
         case Op::maximum:
         case Op::smoothMinimum:
@@ -184,36 +208,89 @@ std::optional<Box> BoxContractor::reach(const Goal& whole, const Box& box, int d
 }
 
 std::optional<Box> BoxContractor::reachLeaf(const Goal& goal, const Box& box, int depth) {
-    const Op op = ir[goal.id].op;
+    const Op op = opOf(goal.id);
     const std::optional<Box> left =
         op == Op::add || op == Op::subtract
             ? reachSum(goal, box, depth)
             : propagate({{goal.id, wantedBy(goal.above, goal.level)}}, box, depth + 1);
-    return left && !isBounded(*left) && usesShells ? reachFromOutside(goal, *left, depth) : left;
+    return left && !isBounded(*left) && isThorough ? reachFromOutside(goal, *left, depth) : left;
+}
+
+/// By the space of the values that stand between the goal and the variables, if there are such.
+std::optional<Box> BoxContractor::reachThroughCut(const Goal& goal, const Box& box, int depth) {
+    if (goal.id < 3 || isVariable(goal.id)) return box;
+    const std::tuple key{goal.id, goal.above, goal.level};
+    if (!frame.throughCuts.contains(key)) {
+        const std::optional<Box> found = boundThroughCut(goal, depth);
+        frame.throughCuts[key] = found;
+    }
+    const std::optional<Box>& known = frame.throughCuts[key];
+    return known ? common(*known, box) : std::nullopt;
+}
+
+/// A box around all of space that meets the goal.
+std::optional<Box> BoxContractor::boundThroughCut(const Goal& goal, int depth) {
+    const std::vector<IrId> cone = coneOf(std::array{Constraint{goal.id, {}}});
+    stepCount += 8 * cone.size();
+    const std::vector<IrId> cut = frameCut(ir, cone, std::span(frame.variables).first(frame.count),
+                                           [&](IrId id) { return isNumber(id); });
+    if (cut.empty()) return kAllSpace;
+    Frame inner;
+    inner.count = cut.size();
+    inner.isAtom = frame.isAtom;
+    std::vector<Constraint> ranges;
+    Box start{};
+    setVariables(frame.limits);
+    std::vector<Constraint> unconstrained;
+    for (const IrId id : cut) unconstrained.push_back({id, kEverything});
+    forwards(coneOf(unconstrained), false);
+    for (std::size_t i = 0; i < cut.size(); ++i) {
+        inner.variables[i] = cut[i];
+        inner.isAtom[cut[i]] = true;
+        inner.limits.lo[i] = current[cut[i]].lo, inner.limits.hi[i] = current[cut[i]].hi;
+        start.lo[i] = everywhere[cut[i]].lo, start.hi[i] = everywhere[cut[i]].hi;
+    }
+    std::swap(frame, inner);
+    isThorough = false;
+    std::optional<Box> found = reach(goal, start, depth + 1);
+    isThorough = true;
+    if (found && !isBounded(*found)) found = reach(goal, *found, depth + 1);
+    std::swap(frame, inner);
+    if (!found) return std::nullopt;
+    for (std::size_t i = 0; i < cut.size(); ++i) ranges.push_back({cut[i], sideOf(*found, i)});
+    isThorough = false;
+    found = propagate(std::move(ranges), kAllSpace, depth + 1);
+    isThorough = true;
+    return found;
 }
 
 /// Proves the shells around the origin free of the goal, from kFarthest inwards.
 std::optional<Box> BoxContractor::reachFromOutside(const Goal& goal, const Box& box, int depth) {
-    const auto [found, isNew] = shells.try_emplace({goal.id, goal.above, goal.level}, kAllSpace);
-    std::optional<Box>& known = found->second;
-    if (isNew) {
+    const std::tuple key{goal.id, goal.above, goal.level};
+    if (!frame.fromOutside.contains(key)) {
+        std::optional<Box> known = kAllSpace;
         // From all of space, whatever the box at hand, for the result serves other boxes too.
-        std::optional<Box> outer = propagate({{goal.id, wantedBy(goal.above, goal.level)}},
-                                             cubeAround(kFarthest), depth + 1, Effort::quick);
+        std::optional<Box> outer =
+            propagate({{goal.id, wantedBy(goal.above, goal.level)}}, frame.limits, depth + 1, Effort::quick);
         shellLimit = stepCount + kShellSteps;
-        bool isFree = outer && !isSeenFarAway(goal, *outer);
-        for (double size = kFarthest / kShellRatio; isFree && outer && size > kSmallestShell;
+        double farthest = 0.0;
+        for (std::size_t axis = 0; axis < frame.count; ++axis)
+            farthest = std::max({farthest, -frame.limits.lo[axis], frame.limits.hi[axis]});
+        bool isFree = !outer || !isSeenFarAway(goal, *outer);
+        bool isBoundedByShells = !outer;
+        for (double size = farthest / kShellRatio; isFree && outer && size > kSmallestShell;
              size /= kShellRatio) {
             const std::optional<Box> inner = common(*outer, cubeAround(size));
             if (inner == outer) continue;
             for (const Box& slab : boxesAround(*outer, inner))
                 isFree = isFree && isUnreachable(goal, slab, kMaxShellSplits, depth);
-            if (isFree) outer = inner;
+            if (isFree) outer = inner, isBoundedByShells = true;
         }
-        if (!outer || longestSide(*outer) < kFarthest) known = outer;
+        if (isBoundedByShells) known = outer;
+        frame.fromOutside[key] = known;
     }
-    if (!known) return std::nullopt;
-    return common(*known, box);
+    const std::optional<Box>& known = frame.fromOutside[key];
+    return known ? common(*known, box) : std::nullopt;
 }
 
 /// Whether the goal is met at some sample in the outermost shell.
@@ -222,10 +299,11 @@ bool BoxContractor::isSeenFarAway(const Goal& goal, const Box& box) {
     std::mt19937 random(1);
     const auto unit = [&] { return double(random() >> 8) / double(1 << 24); };
     for (int i = 0; i < kShellSamples; ++i) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double at = std::lerp(box.lo[axis], box.hi[axis], i % 2 ? std::round(unit()) : unit());
-            current[axis] = {at, at};
-        }
+        Box point;
+        for (std::size_t axis = 0; axis < frame.count; ++axis)
+            point.lo[axis] = point.hi[axis] =
+                std::lerp(box.lo[axis], box.hi[axis], i % 2 ? std::round(unit()) : unit());
+        setVariables(point);
         forwards(cone, false);
         if (goal.above ? current[goal.id].hi >= goal.level : current[goal.id].lo <= goal.level) return true;
     }
@@ -277,11 +355,11 @@ std::optional<Box> BoxContractor::reachAny(const Goal& goal, const Box& box, int
 std::optional<Box> BoxContractor::reachAll(const Goal& goal, const Box& box, int depth) {
     Box left = box;
     std::vector<IrId> pending{goal.id};
-    const Op op = ir[goal.id].op;
+    const Op op = opOf(goal.id);
     while (!pending.empty()) {
         const IrId id = pending.back();
         pending.pop_back();
-        if (ir[id].op == op) {
+        if (opOf(id) == op) {
             // The larger of a number and NaN is the number: nothing is known of the operand then.
             for (const std::size_t i : {1, 0})
                 if (!mayBeNaN[ir[id].operands[i]]) pending.push_back(ir[id].operands[i]);
@@ -320,7 +398,7 @@ std::vector<IrId> BoxContractor::coneOf(std::span<const Constraint> constraints)
     std::vector<IrId> cone, pending;
     ++stamp;
     const auto visit = [&](IrId id) {
-        if (id < 3 || isNumber(id) || stamps[id] == stamp) return;
+        if (isVariable(id) || isNumber(id) || stamps[id] == stamp) return;
         stamps[id] = stamp;
         pending.push_back(id);
     };
@@ -340,7 +418,7 @@ std::optional<Box> BoxContractor::reachCondition(IrId id, bool truth, const Box&
     if (depth > kMaxDepth || isSpent() || mayBeNaN[id]) return box;
     const IrNode& node = ir[id];
     const IrId a = node.operands[0], b = node.operands[1];
-    switch (node.op) {
+    switch (opOf(id)) {
         case Op::logicalNot: return reachCondition(a, !truth, box, depth + 1);
         case Op::logicalAnd:
         case Op::logicalOr: {
@@ -368,7 +446,7 @@ std::vector<IrId> BoxContractor::operandsOf(IrId id, Op op) const {
     while (!pending.empty() && operands.size() + pending.size() < kMaxCases) {
         const IrId at = pending.back();
         pending.pop_back();
-        if (ir[at].op != op)
+        if (opOf(at) != op)
             operands.push_back(at);
         else
             pending.insert(pending.end(), {ir[at].operands[0], ir[at].operands[1]});
@@ -385,14 +463,15 @@ std::vector<BoxContractor::Summand> BoxContractor::summandsOf(IrId id) const {
         const IrNode& node = ir[at.id];
         pending.pop_back();
         const IrId a = node.operands[0], b = node.operands[1];
+        const Op op = opOf(at.id);
         const auto isFactor = [&](IrId value) { return isNumber(value) && everywhere[value].isPoint(); };
         const bool isFull = summands.size() + pending.size() >= kMaxSummands;
-        if (!isFull && (node.op == Op::add || node.op == Op::subtract)) {
+        if (!isFull && (op == Op::add || op == Op::subtract)) {
             pending.push_back({a, at.factor});
-            pending.push_back({b, node.op == Op::subtract ? -at.factor : at.factor});
-        } else if (!isFull && node.op == Op::negate) {
+            pending.push_back({b, op == Op::subtract ? -at.factor : at.factor});
+        } else if (!isFull && op == Op::negate) {
             pending.push_back({a, -at.factor});
-        } else if (!isFull && node.op == Op::multiply && (isFactor(a) || isFactor(b))) {
+        } else if (!isFull && op == Op::multiply && (isFactor(a) || isFactor(b))) {
             pending.push_back({isFactor(a) ? b : a, at.factor * everywhere[isFactor(a) ? a : b].lo});
         } else if (const auto same = std::ranges::find(summands, at.id, &Summand::id);
                    same != summands.end()) {
@@ -451,23 +530,19 @@ std::optional<Box> BoxContractor::propagate(std::vector<Constraint> constraints,
                                             Effort effort, std::vector<Replacement> replacements) {
     if (depth > kMaxDepth || isSpent()) return box;
     const std::vector<IrId> cone = coneOf(constraints);
-    for (std::size_t axis = 0; axis < 3; ++axis) current[axis] = sideOf(box, axis);
+    setVariables(box);
     forwards(cone, false);
     for (const Constraint& constraint : constraints)
         if (!intersect(current[constraint.id], constraint.range)) return std::nullopt;
-    const auto currentBox = [&] {
-        return Box{{current[0].lo, current[1].lo, current[2].lo},
-                   {current[0].hi, current[1].hi, current[2].hi}};
-    };
     if (!narrow(cone, replacements, kMaxRounds)) return std::nullopt;
-    if (!isBounded(currentBox()) && effort == Effort::cases) {
+    if (!isBounded(variableBox()) && effort == Effort::cases) {
         caseDepth = kMaxCaseDepth;
         caseLimit = stepCount + kCaseSteps + kCaseStepsEach * cone.size();
         const bool isPossible = narrow(cone, replacements, kMaxRounds);
         caseDepth = 0;
         if (!isPossible) return std::nullopt;
     }
-    const Box left = currentBox();
+    const Box left = variableBox();
     if (effort == Effort::quick) return left;
     if (isBounded(left) || replacements.size() >= kMaxReplacements) return left;
     const std::vector<Piece> pieces = piecesOfUnbounded(cone, replacements);
@@ -491,8 +566,8 @@ std::vector<BoxContractor::Piece> BoxContractor::piecesOfUnbounded(
     };
     const auto formOf = [&](IrId id) {
         if (isNumber(id)) return LinearForm{.terms = {}, .constant = everywhere[id].lo};
-        if (id < 3) return LinearForm{.terms = {{id, 1.0}}, .constant = 0.0};
-        return substitute(forms[id], replacements);
+        if (isVariable(id)) return LinearForm{.terms = {{id, 1.0}}, .constant = 0.0};
+        return substitute(frame.forms[id], replacements);
     };
     const auto piece = [](Constraint constraint, Replacement replacement) {
         Piece made{.constraints = {}, .replacements = {std::move(replacement)}};
@@ -500,10 +575,10 @@ std::vector<BoxContractor::Piece> BoxContractor::piecesOfUnbounded(
         return made;
     };
     for (const IrId row : cone) {
-        if (forms[row].terms.size() < 2 || !isBounded(current[row])) continue;
-        for (const LinearForm::Term& term : forms[row].terms) {
+        if (frame.forms[row].terms.size() < 2 || !isBounded(current[row])) continue;
+        for (const LinearForm::Term& term : frame.forms[row].terms) {
             const IrId id = term.atom;
-            if (id < 3 || !!isBounded(current[id]) || isReplaced(id)) continue;
+            if (isVariable(id) || isBounded(current[id]) || isReplaced(id)) continue;
             const IrNode& node = ir[id];
             const IrId a = node.operands[0], b = node.operands[1], c = node.operands[2];
             switch (node.op) {

@@ -23,6 +23,8 @@
 //   case, and every value gets the hull of its intervals in the cases (constructive disjunction). Terms of
 //   linear combinations that are piecewise linear, as |x|, are replaced by each of their pieces: so mirrored
 //   solids are bounded.
+// * Where three values stand between a part of the expression and the position, as the coordinates of a moved
+//   solid do (frame_cut.h), that part is bounded in their space first; then the three are.
 // * What is still unbounded is proven empty from kFarthest inwards, shell by shell: so solids of polynomials
 //   are bounded. Beyond kFarthest nothing is known of these.
 //
@@ -34,6 +36,8 @@
 // Lifetime: belongs to one thread and one Ir, which must outlive it.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <span>
@@ -109,7 +113,22 @@ class BoxContractor {
         Box box;  ///< of the spline
     };
 
+    /// A goal and what is known of it: a box around all points that meet it; nothing if there are none.
+    using KnownGoals = std::map<std::tuple<IrId, bool, double>, std::optional<Box>>;
+    /// What expressions are read as functions of: the position, or values that stand between it and them.
+    struct Frame {
+        std::array<IrId, 3> variables{0, 1, 2};
+        std::size_t count = 3;               ///< of variables
+        Box limits = cubeAround(kFarthest);  ///< where searches over space look
+        LinearForms forms = {};
+        std::vector<bool> isAtom = {};  ///< of linear forms
+        KnownGoals throughCuts = {}, fromOutside = {};
+    };
+
     std::optional<Box> reach(const Goal& goal, const Box& box, int depth);
+    std::optional<Box> reachTakenApart(const Goal& goal, const Box& box, int depth);
+    std::optional<Box> reachThroughCut(const Goal& goal, const Box& box, int depth);
+    std::optional<Box> boundThroughCut(const Goal& goal, int depth);
     std::optional<Box> reachAny(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachAll(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachSelected(const Goal& goal, const Box& box, int depth);
@@ -151,6 +170,17 @@ class BoxContractor {
     std::vector<IrId> coneOf(std::span<const Constraint> constraints);
     Interval evaluate(IrId id) const;
     bool isNumber(IrId id) const { return ir[id].positions == 0; }
+    bool isVariable(IrId id) const {
+        const auto end = frame.variables.begin() + std::ptrdiff_t(frame.count);
+        return std::find(frame.variables.begin(), end, id) != end;
+    }
+    /// The operation that an id is taken for: none (Op::count) of a variable.
+    Op opOf(IrId id) const { return isVariable(id) ? Op::count : ir[id].op; }
+    /// The current intervals of the variables; sides beyond their number are a point.
+    Box variableBox() const;
+    void setVariables(const Box& box);
+    /// Whether current[id] belongs to the cone at hand.
+    bool isCurrent(IrId id) const { return isNumber(id) || isVariable(id) || evaluatedIn[id] == evaluation; }
     bool isSpent() const { return stepCount > stepLimit; }
 
     const Ir& ir;
@@ -159,16 +189,15 @@ class BoxContractor {
     std::vector<bool> mayBeNaN;        ///< in some volume of space
     std::vector<uint32_t> stamps;
     uint32_t stamp = 0;
-    LinearForms forms;
+    std::vector<uint32_t> evaluatedIn;  ///< of each operation: the last evaluation of a cone that had it
+    uint32_t evaluation = 0;
+    Frame frame;
     std::unordered_multimap<IrId, Rotation> rotations;  ///< by the smaller of p and q
     std::unordered_map<IrId, SplineUse> splines;        ///< by the smallest id of its channels
-    std::vector<bool> isTurned;                         ///< is a result of a rotation
     int caseDepth = 0;                                  ///< of nested cases that backwards() may go through
-    bool usesShells = false;                            ///< in reachLeaf()
-    /// Of goals that only shells bound: their boxes; nothing is known beyond kFarthest.
-    std::map<std::tuple<IrId, bool, double>, std::optional<Box>> shells;
-    std::size_t shellLimit = 0;  ///< of stepCount, for the shells at hand
-    std::size_t caseLimit = 0;   ///< of stepCount, after which no more cases are tried
+    bool isThorough = false;                            ///< in reach(): cuts and shells are tried
+    std::size_t shellLimit = 0;                         ///< of stepCount, for the shells at hand
+    std::size_t caseLimit = 0;                          ///< of stepCount, after which no more cases are tried
     std::size_t stepCount = 0, stepLimit = SIZE_MAX;
 };
 

@@ -67,7 +67,9 @@ std::optional<TurnedTerm> turnedTerm(const Ir& ir, IrId id) {
 
 bool BoxContractor::forwards(std::span<const IrId> cone, bool narrow) {
     stepCount += cone.size();
+    if (!narrow) ++evaluation;
     for (const IrId id : cone) {
+        evaluatedIn[id] = evaluation;
         const IrNode& node = ir[id];
         Interval operands[kMaxArity];
         const OpInfo& info = opInfo(node.op);
@@ -133,7 +135,8 @@ bool BoxContractor::disjoin(IrId id) {
     std::vector<Constraint> all;
     for (const auto& constraints : cases) all.insert(all.end(), constraints.begin(), constraints.end());
     std::vector<IrId> values = coneOf(all);
-    values.insert(values.begin(), {0, 1, 2});
+    values.insert(values.begin(), frame.variables.begin(),
+                  frame.variables.begin() + std::ptrdiff_t(frame.count));
     std::vector<Interval> before, hulls;
     for (const IrId value : values) before.push_back(current[value]);
     for (const auto& constraints : cases) {
@@ -159,7 +162,7 @@ bool BoxContractor::disjoin(IrId id) {
 
 std::size_t BoxContractor::boundedCount(std::span<const IrId> cone) const {
     std::size_t count = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) count += isBounded(current[axis]);
+    for (std::size_t axis = 0; axis < frame.count; ++axis) count += isBounded(current[frame.variables[axis]]);
     for (const IrId id : cone) count += isBounded(current[id]);
     return count;
 }
@@ -168,16 +171,16 @@ std::size_t BoxContractor::boundedCount(std::span<const IrId> cone) const {
 bool BoxContractor::narrow(std::span<const IrId> cone, std::span<const Replacement> replacements,
                            int rounds) {
     for (int round = 0; round < rounds; ++round) {
-        const std::array<Interval, 3> before{current[0], current[1], current[2]};
+        const Box before = variableBox();
         const std::size_t boundedBefore = boundedCount(cone);
         bool solved = false;
         if (!backwards(cone) || !solveLinear(cone, replacements, solved) || (solved && !backwards(cone)) ||
             !forwards(cone, true))
             return false;
         bool worthwhile = solved || boundedCount(cone) > boundedBefore;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            worthwhile |=
-                current[axis].hi - current[axis].lo < kWorthwhile * (before[axis].hi - before[axis].lo);
+        const Box after = variableBox();
+        for (std::size_t axis = 0; axis < frame.count; ++axis)
+            worthwhile |= after.hi[axis] - after.lo[axis] < kWorthwhile * (before.hi[axis] - before.lo[axis]);
         if (!worthwhile || isSpent()) break;
     }
     return true;
@@ -217,7 +220,9 @@ bool BoxContractor::projectRotations(IrId id) {
     const auto [first, last] = rotations.equal_range(id);
     for (auto it = first; it != last; ++it) {
         const Rotation& turn = it->second;
-        if (!isBounded(current[turn.p]) || !isBounded(current[turn.q])) continue;
+        if (!isCurrent(turn.p) || !isCurrent(turn.q) || !isBounded(current[turn.p]) ||
+            !isBounded(current[turn.q]))
+            continue;
         const double radius =
             std::hypot(absolute(current[turn.p]).hi, absolute(current[turn.q]).hi) * (1.0 + 1e-12);
         for (const IrId operand : {turn.x, turn.y})
@@ -234,7 +239,7 @@ bool BoxContractor::projectSplines(IrId id) {
     const SplineUse& use = found->second;
     const auto range = [&](SplineChannel channel) {
         const IrId value = use.channels[std::size_t(channel)];
-        return value == 0 ? kEverything : current[value];
+        return value == 0 || !isCurrent(value) ? kEverything : current[value];
     };
     const Interval across = range(SplineChannel::across), up = range(SplineChannel::up),
                    along = range(SplineChannel::along), distance = range(SplineChannel::distance);
@@ -258,15 +263,13 @@ bool BoxContractor::projectSplines(IrId id) {
 
 bool BoxContractor::solveLinear(std::span<const IrId> cone, std::span<const Replacement> replacements,
                                 bool& narrowed) {
-    bool isUnbounded = false;
-    for (std::size_t axis = 0; axis < 3; ++axis) isUnbounded |= !isBounded(current[axis]);
-    if (!isUnbounded) return true;
-    forms.add(ir, cone, everywhere, isTurned);
+    if (isBounded(variableBox())) return true;
+    frame.forms.add(ir, cone, everywhere, frame.isAtom);
     std::vector<LinearForm> rows;
     std::vector<Interval> bounds;
     for (const IrId id : cone) {
-        if (forms[id].isAtom(id) || !isBounded(current[id])) continue;
-        LinearForm form = substitute(forms[id], replacements);
+        if (frame.forms[id].isAtom(id) || !isBounded(current[id])) continue;
+        LinearForm form = substitute(frame.forms[id], replacements);
         const bool isUseful = std::ranges::any_of(
             form.terms, [&](const LinearForm::Term& term) { return !isBounded(current[term.atom]); });
         if (!isUseful) continue;
@@ -351,13 +354,12 @@ void BoxContractor::findRotations() {
         bool firstIsSine, signsDiffer;
     };
     std::map<std::tuple<IrId, IrId, IrId>, std::vector<Seen>> sums;
-    isTurned.resize(ir.size());
     const auto note = [&](IrId id, const TurnedTerm& first, IrId y, bool signsDiffer) {
         std::vector<Seen>& others = sums[{first.angle, first.x, y}];
         for (const Seen& other : others)
             if (other.firstIsSine != first.isSine && (y == first.x || other.signsDiffer != signsDiffer)) {
                 rotations.insert({std::min(id, other.id), {id, other.id, first.x, y}});
-                isTurned[id] = isTurned[other.id] = true;
+                frame.isAtom[id] = frame.isAtom[other.id] = true;
             }
         others.push_back({id, first.isSine, signsDiffer});
     };

@@ -62,7 +62,7 @@ void LinearForms::add(const Ir& ir, std::span<const IrId> ids, std::span<const I
     if (forms.size() < values.size()) forms.resize(values.size()), isKnown.resize(values.size());
     const auto isNumber = [&](IrId id) { return values[id].isPoint() && ir[id].positions == 0; };
     const auto formOf = [&](IrId id) {
-        if (id < 3) return LinearForm{.terms = {{id, 1.0}}, .constant = 0.0};
+        if (id < 3 || isAtom[id]) return LinearForm{.terms = {{id, 1.0}}, .constant = 0.0};
         return isNumber(id) ? LinearForm{.terms = {}, .constant = values[id].lo} : forms[id];
     };
     for (const IrId id : ids) {

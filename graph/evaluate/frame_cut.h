@@ -1,0 +1,23 @@
+// Frame cuts: the values that stand between an expression and what it is a function of.
+//
+// A field behind a twist, a bend or a turn reads the position only through three values, the coordinates that
+// the operation makes of it. In the graph of operations they are a vertex cut: every path from the root to
+// the position goes through one of them. Such a cut is found without knowing what made it, as a minimum
+// vertex cut by augmenting paths (Menger 1927; Ford and Fulkerson 1956).
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "graph/ir/ir.h"
+
+namespace fw {
+
+/// At most three values of the cone, without its last one, through which all paths from the last one to the
+/// `variables` go; of several such cuts the one next to the variables. Empty if there is none. `cone`: ids,
+/// ascending, without variables and numbers; `isNumber`: values that depend on no variable.
+std::vector<IrId> frameCut(const Ir& ir, std::span<const IrId> cone, std::span<const IrId> variables,
+                           const std::function<bool(IrId)>& isNumber);
+
+}  // namespace fw
