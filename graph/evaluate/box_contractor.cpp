@@ -111,8 +111,12 @@ std::vector<BoxContractor::Part> BoxContractor::parts(IrId root, const Box& with
 std::optional<Box> BoxContractor::contract(IrId root, double level, const Box& box) {
     std::optional<Box> left = reach({root, false, level}, box, 0);
     if (!left || isBounded(*left)) return left;
+    return contractThoroughly(root, level, *left);
+}
+
+std::optional<Box> BoxContractor::contractThoroughly(IrId root, double level, const Box& box) {
     isThorough = true;
-    left = reach({root, false, level}, *left, 0);
+    const std::optional<Box> left = reach({root, false, level}, box, 0);
     isThorough = false;
     return left;
 }
@@ -170,7 +174,7 @@ std::optional<Box> BoxContractor::reach(const Goal& whole, const Box& box, int d
     if (std::abs(goal.level) >= kHuge) return box;
     if (!isThorough) return reachTakenApart(goal, box, depth);
     const std::optional<Box> left = reachThroughCut(goal, box, depth);
-    return left && !isBounded(*left) ? reachTakenApart(goal, *left, depth) : left;
+    return left ? reachTakenApart(goal, *left, depth) : left;
 }
 
 std::optional<Box> BoxContractor::reachTakenApart(const Goal& goal, const Box& box, int depth) {

@@ -9,12 +9,8 @@ namespace fw {
 
 namespace {
 
-struct Effort {
-    std::size_t cells, steps;  ///< steps of tapes, on intervals and points
-    int patience;              ///< rounds in a row without progress; three rounds halve the cells
-};
 /// The second if the first leaves the hull much larger than what samples show of the solid.
-constexpr Effort kQuick{8'000, 100'000, 12}, kThorough{50'000, 1'000'000, 18};
+constexpr RefinementEffort kQuick{8'000, 100'000, 12, false}, kThorough{50'000, 1'000'000, 18, true};
 constexpr std::size_t kSamples = 2048;
 constexpr double kCloseRatio = 1.35;
 
@@ -35,12 +31,35 @@ bool touchesFace(const Box& hull, const Box& cell) {
 }  // namespace
 
 HullRefinement::HullRefinement(const Ir& ir_, IrId root_, std::span<const double> parameters_,
-                               double lipschitz_)
-    : ir(ir_), root(root_), parameters(parameters_.begin(), parameters_.end()), lipschitz(lipschitz_) {}
+                               double lipschitz_, BoxContractor& contractor_)
+    : ir(ir_),
+      root(root_),
+      parameters(parameters_.begin(), parameters_.end()),
+      lipschitz(lipschitz_),
+      contractor(contractor_) {}
 
 std::optional<Box> HullRefinement::refine(std::span<const BoxContractor::Part> parts) {
     if (parts.empty()) return std::nullopt;
-    cells.clear(), faces = {}, cellCount = 0;
+    cellCount = 0;
+    start(parts);
+    if (!refine(kQuick)) return std::nullopt;
+    if (isSettled || isCloseToSamples()) return hull();
+    const Box found = hull();
+    std::vector<BoxContractor::Part> tight;
+    for (const BoxContractor::Part& part : parts) {
+        const std::optional<Box> within = common(part.box, found);
+        const std::optional<Box> box =
+            within ? contractor.contractThoroughly(part.root, 0.0, *within) : std::nullopt;
+        if (box) tight.push_back({part.root, *box});
+    }
+    if (tight.empty()) return std::nullopt;
+    start(tight);
+    if (!refine(kThorough)) return std::nullopt;
+    return common(hull(), found);
+}
+
+void HullRefinement::start(std::span<const BoxContractor::Part> parts) {
+    cells.clear(), faces = {}, isSettled = false;
     Box all = parts[0].box;
     for (const BoxContractor::Part& part : parts) {
         all = joined(all, part.box);
@@ -49,21 +68,24 @@ std::optional<Box> HullRefinement::refine(std::span<const BoxContractor::Part> p
     hulls = {all};
     for (std::size_t face = 0; face < faces.size(); ++face)
         for (std::size_t number = 0; number < parts.size(); ++number) enter(face, number);
-    for (const Effort& effort : {kQuick, kThorough}) {
-        maxCells = cellCount + effort.cells, maxSteps = steps() + effort.steps;
-        for (int idle = 0; idle < effort.patience && canSplit(); ++idle) {
-            const Box before = hull();
-            const std::size_t splitsBefore = splitCount;
-            if (!advance()) return std::nullopt;
-            if (splitCount == splitsBefore) return hull();
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const double moved = hull().lo[axis] - before.lo[axis] + before.hi[axis] - hull().hi[axis];
-                if (moved > 0.01 * longestSide(before)) idle = -1;
-            }
+}
+
+/// False if the solid is proven empty.
+bool HullRefinement::refine(const RefinementEffort& effort) {
+    isThorough = effort.isThorough;
+    maxCells = cellCount + effort.cells, maxSteps = steps() + effort.steps;
+    for (int idle = 0; idle < effort.patience && canSplit(); ++idle) {
+        const Box before = hull();
+        const std::size_t splitsBefore = splitCount;
+        if (!advance()) return false;
+        isSettled = splitCount == splitsBefore;
+        if (isSettled) break;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double moved = hull().lo[axis] - before.lo[axis] + before.hi[axis] - hull().hi[axis];
+            if (moved > 0.01 * longestSide(before)) idle = -1;
         }
-        if (isCloseToSamples()) break;
     }
-    return hull();
+    return true;
 }
 
 /// Whether points inside the solid are known close to all faces of the hull.
@@ -184,7 +206,17 @@ void HullRefinement::test(Cell cell) {
     if (kWorthSimplifying * machine.decidedSteps() > cell.tape->steps.size())
         cell.tape = std::make_shared<const Tape>(machine.shortenedForSigns(*cell.tape));
     if (jumps && machine.positiveInEachCase(*cell.tape, cell.box)) return;
-    if (!isFarFromSurface(cell.box)) cells.push_back(std::move(cell));
+    if (isFarFromSurface(cell.box)) return;
+    if (isThorough) {
+        const std::size_t before = contractor.steps();
+        const std::optional<Box> box = contractor.contract(cell.part, 0.0, cell.box);
+        pointSteps += contractor.steps() - before;
+        if (!box) return;
+        cell.box = *box;
+        pointSteps += 4 * cell.tape->steps.size();
+        if (gradients.meanValue(*cell.tape, cell.box).lo >= 0.0) return;
+    }
+    cells.push_back(std::move(cell));
 }
 
 bool HullRefinement::isFarFromSurface(const Box& box) {

@@ -17,15 +17,25 @@
 #include <vector>
 
 #include "graph/evaluate/box_contractor.h"
+#include "graph/evaluate/interval_gradient.h"
 #include "graph/evaluate/tape.h"
 
 namespace fw {
+
+/// What a search may cost.
+struct RefinementEffort {
+    std::size_t cells, steps;  ///< steps of tapes and of contractions
+    int patience;              ///< rounds in a row without progress; three rounds halve the cells
+    bool isThorough;           ///< cells are contracted, and tested by the mean value form
+};
 
 class HullRefinement {
   public:
     /// `lipschitz`: of the field `root` as a whole, infinite if unknown: then cells are also tested by the
     /// value at their centre.
-    HullRefinement(const Ir& ir, IrId root, std::span<const double> parameters, double lipschitz);
+    /// `contractor` is of the same Ir and parameters, and outlives this.
+    HullRefinement(const Ir& ir, IrId root, std::span<const double> parameters, double lipschitz,
+                   BoxContractor& contractor);
 
     /// A box that contains all parts, at most their hull; nothing if the parts are proven empty.
     std::optional<Box> refine(std::span<const BoxContractor::Part> parts);
@@ -43,6 +53,8 @@ class HullRefinement {
         std::size_t first = 0, last = 0;  ///< the halves that are left, from `first` to before `last`
     };
 
+    void start(std::span<const BoxContractor::Part> parts);
+    bool refine(const RefinementEffort& effort);
     std::optional<double> settle(std::size_t face);
     bool advance();
     bool isTight(std::size_t axis, Cell& cell);
@@ -60,7 +72,11 @@ class HullRefinement {
     IrId root;
     std::vector<double> parameters;
     double lipschitz;
+    BoxContractor& contractor;
+    bool isThorough = false;  ///< RefinementEffort
+    bool isSettled = false;   ///< all faces are tight
     TapeMachine<double> machine;
+    IntervalGradientMachine gradients;
     std::optional<Tape> whole;  ///< of the root, for values at centres
     std::size_t pointSteps = 0, cellCount = 0, splitCount = 0, maxCells = 0, maxSteps = 0;
     std::vector<Box> hulls;  ///< before each round

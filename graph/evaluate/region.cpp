@@ -131,7 +131,7 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
         }
     }
     if (parts.empty()) return {Extent::empty, {}, {}};
-    HullRefinement refinement(ir, distance, parameters, lipschitz);
+    HullRefinement refinement(ir, distance, parameters, lipschitz, contractor);
     const std::optional<Box> box = refinement.refine(parts);
     return box ? Region{Extent::bounded, *box, {}} : Region{Extent::empty, {}, {}};
 }
