@@ -340,6 +340,8 @@ Beside besideOf(const SplineTable& table, const SplineTexel& cell, const glm::dv
             s < 0 ? std::max(at, run.first + 1) - 1 : std::min(at + 1, run.first + run.count - 1);
         take(table, beside, p, best);
     }
+    // Only where the position is NaN is no arc the nearest one.
+    if (!best.arc) best = {&table.spline->arcs.front(), {0, NAN, false}};
     return best;
 }
 
