@@ -166,6 +166,7 @@ int runExport(const ExportOptions& options) {
     }
     if (!whole) return notWritten(options, whole.error());
     const MeshedProgram& meshed = whole->program;
+    const bool found = options.mesh.region.empty() && !meshed.session.program().region;
     const Program onHost = options.textures || options.lods > 1 ? meshed.session.onHost() : Program();
     std::vector<LevelReport> levels;
     if (options.lods > 1) levels = reportOnLevels(whole->levels, options.output, onHost, meshed.region);
@@ -176,8 +177,12 @@ int runExport(const ExportOptions& options) {
     progress.start("write", 70);
     how.cellSize = static_cast<float>(meshed.cellSize);
     Report report;
-    const MeshedFrom from{&meshed.session.program(), meshed.region, meshed.session.device().name(),
-                          how.placement, density};
+    const MeshedFrom from{&meshed.session.program(),
+                          meshed.region,
+                          meshed.session.device().name(),
+                          how.placement,
+                          density,
+                          found};
     how.examine = measuring(options, from, &progress, report);
     how.kept = [] { whenEnded({.said = "; the mesh was written"}); };
     const Result<ExportedFiles> written = exportWished(options, *made, options.output, how);

@@ -268,8 +268,8 @@ int exportInstances(const ExportOptions& options) {
         noteOf(options, "solids that reach into each other are each whole in the file, and not one");
     progress.start("write", 70);
     Report report;
-    const MeshedFrom from{&opened->program, opened->region, mesher.deviceName(), how.placement,
-                          densityOf(opened->graph)};
+    const MeshedFrom from{&opened->program, opened->region,           mesher.deviceName(),
+                          how.placement,    densityOf(opened->graph), !mesher.givenRegion()};
     how.examine = measuring(options, from, &progress, report);
     how.kept = [] { whenEnded({.said = "; the file was written"}); };
     if (const Result<ExportedFiles> written = write(options, how, solids); !written)

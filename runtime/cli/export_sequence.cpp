@@ -116,11 +116,14 @@ int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::
         std::shared_ptr<const Program> program;
         if (options.measured() || options.textures)
             program = std::make_shared<Program>(player.programOnHost());
-        const MeshedFrom from{program.get(), player.region(), player.device().name(), how.placement,
-                              measured.from.density};
+        const MeshedFrom from{program.get(), player.meshedRegion(), player.device().name(),
+                              how.placement, measured.from.density, player.regionFound()};
         auto write = [&, path, number, with, program, from, levels = std::move(*levels)]() mutable -> Done {
             Report report;
-            if (!levels[0].indices.empty()) with.examine = measuring(options, from, nullptr, report);
+            if (!levels[0].indices.empty())
+                with.examine = measuring(options, from, nullptr, report);
+            else if (options.measured())
+                report.completeness = completenessOf(from), report.regionFound = from.regionFound;
             std::vector<LevelReport> coarser;
             if (options.lods > 1 && options.measured())
                 coarser = reportOnLevels(levels, path, *program, from.region);

@@ -28,11 +28,12 @@ Result<Report> measure(const MeshOutput& options, const StoredMesh& file, const 
     const uint64_t peak = peakMemoryBytes();
     if (progress) progress->start("report", 85);
     std::future<MeasureOptions> compared;
-    if (from.program && (!options.report.empty() || needField(options.required)))
+    if (from.program && (!options.report.empty() || needDistances(options.required)))
         compared = std::async(std::launch::async, [&] {
             return measureOf(*from.program, from.region,
-                             needField(options.required) ? Points::all : Points::affordable);
+                             needDistances(options.required) ? Points::all : Points::affordable);
         });
+    const std::optional<Completeness> completeness = completenessOf(from);
     Result<WeldedMesh> read = readWelded(file);
     Result<Report> report =
         reportOnPlaced(std::move(read), from, compared.valid() ? compared.get() : MeasureOptions{});
@@ -41,10 +42,15 @@ Result<Report> measure(const MeshOutput& options, const StoredMesh& file, const 
     report->totalMs = total;
     report->peakMemoryBytes = peak;
     report->device = from.device;
+    report->completeness = completeness, report->regionFound = from.regionFound;
     return report;
 }
 
 }  // namespace
+
+std::optional<Completeness> completenessOf(const MeshedFrom& from) {
+    return from.program ? std::optional(checkCompleteness(*from.program, from.region)) : std::nullopt;
+}
 
 Result<Report> reportOnThere(const std::string& path, const MeshedFrom& from) {
     return reportOnPlaced(readWelded({path, path}), from, {});

@@ -16,6 +16,7 @@ struct MeshedFrom {
     std::string device = {};
     Placement placement = {};
     std::optional<double> density = {};  ///< the document's
+    bool regionFound = false;            ///< by the program, not given by the user
 };
 
 /// What fw::ExportOptions::examine has to be to measure the file into `report`: nothing, unless that is
@@ -23,6 +24,9 @@ struct MeshedFrom {
 /// must outlive it.
 std::function<Done(const StoredMesh&)> measuring(const MeshOutput& options, const MeshedFrom& from,
                                                  Progress* progress, Report& report);
+
+/// Whether the region that was meshed holds all of the solid; empty without a program.
+std::optional<Completeness> completenessOf(const MeshedFrom& from);
 
 /// What a mesh file holds that was written before; its lengths are the graph's. Of `from` the placement and
 /// the density count.

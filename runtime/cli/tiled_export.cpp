@@ -188,8 +188,8 @@ int exportPart(const ExportOptions& options, Session& session, const MeshRequest
 }
 
 int noField(const std::string& output) {
-    print({.message = "error= is measured against the field, which parts do not hold: give it to fieldwright "
-                      "export of the whole mesh",
+    print({.message = "error= and complete are checked against the field, which parts do not hold: give "
+                      "them to fieldwright export of the whole mesh",
            .file = output});
     return kBadUsage;
 }
@@ -292,10 +292,10 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
     const TilePlan plan = tilesOf(options, *grid);
     if (share.shares > plan.tiles.size()) return tooFewTiles(options, plan, share.shares);
     if (options.share.empty())
-        return exportWhole(
-            options, session, opened.request, plan,
-            {&session.program(), opened.region, session.device().name(), placement, densityOf(opened.graph)},
-            given, progress);
+        return exportWhole(options, session, opened.request, plan,
+                           {&session.program(), opened.region, session.device().name(), placement,
+                            densityOf(opened.graph), !given},
+                           given, progress);
     return exportPart(options, session, opened.request, plan, share, progress);
 }
 

@@ -439,6 +439,15 @@ std::string writeReport(const Report& report) {
                                  {"triangles", level.triangles},
                                  {"error", level.error}});
     out["capped"] = report.capped;
+    const std::optional<Completeness>& completeness = report.completeness;
+    out["complete"] =
+        completeness ? nlohmann::ordered_json(completeness->complete()) : nlohmann::ordered_json();
+    out["completeness"] = completeness && completeness->complete()
+                              ? nlohmann::ordered_json(completeness->proven ? "proven" : "sampled")
+                              : nlohmann::ordered_json();
+    out["solidOutside"] = completeness && !completeness->complete()
+                              ? nlohmann::ordered_json(*completeness->solidOutside)
+                              : nlohmann::ordered_json();
     out["stages"] = nlohmann::ordered_json::object();
     for (const auto& [name, milliseconds] : report.stages) out["stages"][name] = milliseconds;
     out["totalMs"] = report.totalMs;
@@ -463,6 +472,11 @@ std::string reportWords(const Report& report) {
     rows.emplace_back("Closed", report.closedManifold() ? "yes" : "no");
     rows.emplace_back("Bodies", std::to_string(report.bodies()));
     rows.emplace_back("Cavities", std::to_string(report.cavities));
+    if (const auto& completeness = report.completeness)
+        rows.emplace_back("Complete",
+                          completeness->complete()
+                              ? completeness->proven ? "yes, proven" : "yes, as far as samples show"
+                              : "no: " + describeMissing(*completeness));
     if (report.meshToSurface) rows.emplace_back("From mesh to surface", length(report.meshToSurface->max));
     if (report.surfaceToMesh) rows.emplace_back("From surface to mesh", length(report.surfaceToMesh->max));
     std::string words;

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "graph/base/result.h"
+#include "runtime/measure/completeness.h"
 #include "runtime/measure/mesh_size.h"
 #include "runtime/measure/read_back.h"
 #include "runtime/measure/widths.h"
@@ -92,6 +93,8 @@ struct Report : MeshSize {
     // The run that made the file: the caller fills these in.
     std::string unit = "m", fileLengths = {};            ///< of the lengths here; of those in the file
     bool capped = false;                                 ///< the surface left the region and was closed there
+    std::optional<Completeness> completeness = {};       ///< empty: not checked, as of a mesh without a field
+    bool regionFound = false;                            ///< by the program, not given by the user
     std::vector<std::pair<std::string, double>> stages;  ///< name, ms
     double totalMs = 0;
     uint64_t peakMemoryBytes = 0;

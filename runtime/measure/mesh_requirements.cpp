@@ -28,6 +28,13 @@ Reason closed(const Report& report, double) {
     return none(report.boundaryEdges, "open edges (edges of one triangle)");
 }
 
+Reason complete(const Report& report, double) {
+    if (!report.completeness)
+        return "it was not checked against its field: give --overwrite if the file was there before";
+    if (report.completeness->complete()) return {};
+    return describeMissing(*report.completeness) + ": give a larger --region";
+}
+
 Reason manifold(const Report& report, double) {
     if (report.nonManifoldEdges > 0) return none(report.nonManifoldEdges, "edges of more than two triangles");
     if (report.nonManifoldVertices > 0) return none(report.nonManifoldVertices, "vertices where parts touch");
@@ -105,6 +112,7 @@ struct Rule {
 };
 
 constexpr Rule kRules[] = {{"closed", nullptr, closed},
+                           {"complete", nullptr, complete},
                            {"manifold", nullptr, manifold},
                            {"uncut", nullptr, uncut},
                            {"nondegenerate", nullptr, nondegenerate},
@@ -132,6 +140,11 @@ Result<double> numberIn(std::string_view words, const Rule& rule, const LengthUn
         return Error{.message = "needs a number that is not negative"};
     if (rule.whole && number != std::floor(number)) return Error{.message = "needs a whole number"};
     return number;
+}
+
+bool asks(const std::vector<Requirement>& requirements, decltype(Rule::broken) what) {
+    return std::ranges::any_of(requirements,
+                               [&](const Requirement& each) { return kRules[each.rule].broken == what; });
 }
 
 Error refused(std::string_view word, const std::string& why) {
@@ -173,13 +186,19 @@ Result<std::vector<Requirement>> parseRequirements(std::string_view list) {
 }
 
 bool needField(const std::vector<Requirement>& requirements) {
-    return std::ranges::any_of(requirements,
-                               [](const Requirement& each) { return kRules[each.rule].broken == error; });
+    return needDistances(requirements) || asks(requirements, complete);
 }
+
+bool needDistances(const std::vector<Requirement>& requirements) { return asks(requirements, error); }
 
 std::vector<std::string> unmet(const std::vector<Requirement>& requirements, const Report& report) {
     std::vector<std::string> reasons;
-    for (const auto& [at, number] : requirements) {
+    std::vector<Requirement> all = requirements;
+    if (report.completeness && report.regionFound && asks(all, closed) && !asks(all, complete)) {
+        const auto rule = std::ranges::find(kRules, &complete, &Rule::broken);
+        all.push_back({std::size_t(rule - kRules), {}});
+    }
+    for (const auto& [at, number] : all) {
         const Rule& rule = kRules[at];
         const double of = rule.number ? *numberIn(number, rule, report.lengths()) : 0.0;
         const Reason reason = rule.broken(report, of);

@@ -22,10 +22,13 @@ Result<std::vector<Requirement>> parseRequirements(std::string_view text);
 /// "closed manifold … error=LENGTH": each name, with what its number is.
 std::string requirementNames();
 
-/// Whether one of them can be told only from the field that the mesh was made of.
+/// Whether one of them can be checked only with the field that the mesh was made of.
 bool needField(const std::vector<Requirement>& requirements);
+/// Whether one of them needs the distances between the mesh and the field's surface.
+bool needDistances(const std::vector<Requirement>& requirements);
 
-/// Why the mesh is not as required, one sentence for each requirement that it misses.
+/// Why the mesh is not as required, one sentence for each requirement that it misses. "closed" includes
+/// "complete" where the report knows of completeness and the region was found.
 std::vector<std::string> unmet(const std::vector<Requirement>& requirements, const Report& report);
 
 }  // namespace fw

@@ -354,16 +354,19 @@ Result<MesherResult> Player::makeMesh(bool stages, uint32_t show) {
     const double time = timelineTime();
     const bool beyond = now.regionFound && now.fieldMoves && !(time >= 0.0 && time <= now.timeline.length);
     Result<MesherResult> result = MesherResult{};
-    if (!beyond) result = session.polygonise({*now.region, resolution(), options.method, stages});
+    Box region = *now.region;
+    if (!beyond) result = session.polygonise({region, resolution(), options.method, stages});
     if (result && (beyond || result->capped) && now.regionFound) {
         // Beyond the timeline, or between the times that were looked at, the solid reaches farther.
         const Result<Box> own = meshRegion(session.program(), {{}, resolution()}, &now.graph);
         if (!own) return problem(now.graph, own.error().message);
-        result = session.polygonise({joined(*now.region, *own), resolution(), options.method, stages});
+        region = joined(region, *own);
+        result = session.polygonise({region, resolution(), options.method, stages});
     }
     if (!result) return problem(now.graph, result.error().message);
     meshed = *result;
     lastCapped = result->capped;
+    lastRegion = region;
     return result;
 }
 

@@ -116,6 +116,8 @@ class Player {
     /// whether it was found rather than given; and the cells along its longest side.
     Box region() const { return now.region.value_or(Box{}); }
     bool regionFound() const { return now.regionFound; }
+    /// The region of the last mesh. It is larger than region() where the solid left that one.
+    Box meshedRegion() const { return lastRegion; }
     int resolution() const;
     /// The next meshes have at most so many cells along it, in the same region; 0: as many as were asked for.
     void coarsen(int cells);
@@ -228,6 +230,7 @@ class Player {
     std::map<std::string, std::vector<double>, std::less<>> chosen;  ///< by name, what set() was given
     double seconds = 0.0;
     bool lastCapped = false;
+    Box lastRegion = {};
     int mostCells = 0;                    ///< as coarsen() was told
     int halvings = 0;                     ///< of the resolution, for want of room
     std::string full = {};                ///< why

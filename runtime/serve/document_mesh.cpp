@@ -137,6 +137,8 @@ Answer Document::measure(Params& params, Task& task) {
     report.unit = unitOf(graph()).name;
     report.density = densityOf(graph());
     report.capped = player->capped();
+    if (field) report.completeness = checkCompleteness(program, player->meshedRegion(), &task.cancelled);
+    if (task.cancelled) return cancelledFault();
     report.device = player->device().name();
     Reply reply;
     reply.result = Json::parse(writeReport(report));

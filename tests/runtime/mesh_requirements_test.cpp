@@ -105,7 +105,7 @@ TEST(MeshRequirements, WhatIsNoneIsRefusedWithAllThatAre) {
         const Result<std::vector<Requirement>> required = parseRequirements(list);
         ASSERT_FALSE(required) << list;
         EXPECT_NE(required.error().message.find(why), std::string::npos) << required.error().message;
-        EXPECT_NE(required.error().message.find("closed manifold uncut"), std::string::npos);
+        EXPECT_NE(required.error().message.find("closed complete manifold uncut"), std::string::npos);
     }
 }
 
@@ -205,7 +205,7 @@ TEST(MeshRequirements, TheCommandFailsWithTheReasonAndKeepsTheFile) {
     EXPECT_NE(missed.errors.find("ball.stl: not error=0.0001: a point of"), std::string::npos);
     EXPECT_EQ(missed.errors.find("not closed"), std::string::npos);
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"ball.field.json", "ball.stl"}));
-    expectRefusal(required("clsed"), 2, {"--require", "\"clsed\" is no requirement", "closed manifold"});
+    expectRefusal(required("clsed"), 2, {"--require", "\"clsed\" is no requirement", "closed complete manifold"});
 }
 
 }  // namespace fw::mesh_requirements_test

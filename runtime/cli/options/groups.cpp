@@ -99,8 +99,10 @@ void addMeasures(CLI::App* command, MeshOutput& output) {
                 if (!required) throw CLI::ValidationError("--require", required.error().message);
                 output.required = std::move(*required);
             },
-            "What the mesh file must be, parted by commas; if it is not, the exit status is 1: " +
-                requirementNames())
+            "Requirements for the mesh file, separated by commas; if one fails, the exit status is 1: " +
+                requirementNames() +
+                ". complete: no solid is outside the meshed region; closed includes it, unless the region is "
+                "given")
         ->type_name("LIST");
 }
 
