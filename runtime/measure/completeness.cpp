@@ -112,7 +112,7 @@ std::vector<IrId> solidOperands(const Ir& ir, IrId root) {
     return operands;
 }
 
-/// A tape with what it takes to run it: the sum of its operations' weights.
+/// A tape and its cost: the sum of the weights of its operations.
 struct CostedTape {
     explicit CostedTape(Tape made) : tape(std::move(made)) {
         for (const TapeStep& step : tape.steps)

@@ -17,8 +17,8 @@
 // The work is limited by a number of tape steps, not by time, so the result is the same on every run. A field
 // with more steps gets fewer samples and cells, but always some dozens of samples.
 //
-// Limits: "sampled" is no proof. A solid that is small for its distance and has no operand of its own, such
-// as a copy that only a modulo or noise makes, can escape samples and descent.
+// Limits: "sampled" is no proof. Samples and descent can miss a solid that is small for its distance and is
+// not a separate operand, such as a single copy made by a modulo or by noise.
 #pragma once
 
 #include <atomic>
@@ -37,7 +37,7 @@ struct Program;
 struct Completeness {
     /// A point outside the region where the field is negative; empty if none was found.
     std::optional<Point> solidOutside = {};
-    bool proven = false;  ///< intervals prove that there is none up to kFarthest
+    bool proven = false;  ///< intervals prove that there are no such points up to kFarthest
     Box region = {};
     /// Work that was done on points and on boxes, in units of CompletenessBudget.
     std::size_t pointWork = 0, intervalWork = 0;
