@@ -37,7 +37,7 @@ struct Program;
 struct Completeness {
     /// A point outside the region where the field is negative; empty if none was found.
     std::optional<Point> solidOutside = {};
-    bool proven = false;  ///< intervals prove that there are no such points up to kFarthest
+    bool proven = false;  ///< no such point exists up to kFarthest, by interval arithmetic
     Box region = {};
     /// Work that was done on points and on boxes, in units of CompletenessBudget.
     std::size_t pointWork = 0, intervalWork = 0;
