@@ -19,6 +19,11 @@ constexpr int kMaxCaseDepth = 3;  // of nested cases
 constexpr double kShellRatio = 4.0, kSmallestShell = 1.0 / 1024.0;
 constexpr std::size_t kShellSteps = 300'000;
 constexpr int kMaxShellSplits = 24, kShellSamples = 64;
+constexpr double kSmallestTrim = 1.0 / 32.0;  // of a box's side
+constexpr std::size_t kTrimSteps = 20'000;
+constexpr int kMaxTrimSplits = 12;
+constexpr int kMaxRepeats = 4;
+constexpr double kWorthRepeating = 0.95;  // of a side
 constexpr double kSmallestFactor = 1e-12;
 constexpr std::size_t kMaxReplacements = 4, kMaxSummands = 16, kMaxCases = 32;
 /// What going through the cases within one cone may cost.
@@ -46,7 +51,13 @@ bool isBounded(const Box& box) {
 }
 
 BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters)
-    : ir(ir_), everywhere(ir.size()), mayBeNaN(ir.size()), stamps(ir.size()), evaluatedIn(ir.size()) {
+    : ir(ir_),
+      everywhere(ir.size()),
+      mayBeNaN(ir.size()),
+      stamps(ir.size()),
+      evaluatedIn(ir.size()),
+      noted(ir.size()),
+      notedIn(ir.size()) {
     for (IrId id = 0; id < ir.size(); ++id) {
         const IrNode& node = ir[id];
         current.swap(everywhere);
@@ -109,9 +120,10 @@ std::vector<BoxContractor::Part> BoxContractor::parts(IrId root, const Box& with
 }
 
 std::optional<Box> BoxContractor::contract(IrId root, double level, const Box& box) {
-    std::optional<Box> left = reach({root, false, level}, box, 0);
+    std::optional<Box> left = repeat({root, false, level}, box);
     if (!left || isBounded(*left)) return left;
-    return contractThoroughly(root, level, *left);
+    left = contractThoroughly(root, level, *left);
+    return left && isBounded(*left) ? repeat({root, false, level}, *left) : left;
 }
 
 std::optional<Box> BoxContractor::contractThoroughly(IrId root, double level, const Box& box) {
@@ -119,6 +131,33 @@ std::optional<Box> BoxContractor::contractThoroughly(IrId root, double level, co
     const std::optional<Box> left = reach({root, false, level}, box, 0);
     isThorough = false;
     return left;
+}
+
+/// Within a bounded box all values have narrower ranges, which bound the box further.
+std::optional<Box> BoxContractor::repeat(const Goal& goal, const Box& box) {
+    std::optional<Box> left = box;
+    for (int round = 0; round < kMaxRepeats && left; ++round) {
+        const Box before = *left;
+        if (isBounded(before)) noteRanges(goal.id, before);
+        left = reach(goal, before, 0);
+        ++rangeGeneration;
+        if (!left || !isBounded(*left)) break;
+        bool isSmaller = !isBounded(before);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            isSmaller |=
+                left->hi[axis] - left->lo[axis] < kWorthRepeating * (before.hi[axis] - before.lo[axis]);
+        if (!isSmaller) break;
+    }
+    return left;
+}
+
+/// Makes rangeOf() that over the box, for all operations up to `root`.
+void BoxContractor::noteRanges(IrId root, const Box& box) {
+    const std::vector<IrId> cone = coneOf(std::array{Constraint{root, {}}});
+    setVariables(box);
+    forwards(cone, false);
+    ++rangeGeneration;
+    for (const IrId id : cone) noted[id] = current[id], notedIn[id] = rangeGeneration;
 }
 
 BoxContractor::Goal BoxContractor::peeled(Goal goal) const {
@@ -142,11 +181,11 @@ BoxContractor::Goal BoxContractor::peeled(Goal goal) const {
         } else if (node.op == Op::multiply || node.op == Op::divide) {
             // The factor may vary as long as its sign is known.
             const auto hasSign = [&](IrId id) {
-                return (everywhere[id].lo > 0.0 || everywhere[id].hi < 0.0) && !mayBeNaN[id];
+                return (rangeOf(id).lo > 0.0 || rangeOf(id).hi < 0.0) && !mayBeNaN[id];
             };
             const bool isProduct = node.op == Op::multiply;
             if (!hasSign(b) && !(isProduct && hasSign(a))) return goal;
-            const Interval factor = everywhere[hasSign(b) ? b : a];
+            const Interval factor = rangeOf(hasSign(b) ? b : a);
             level = isProduct ? level / factor : level * factor;
             flips = factor.hi < 0.0, rest = hasSign(b) ? a : b;
         } else {
@@ -168,7 +207,7 @@ bool BoxContractor::isUnion(const Goal& goal) const {
 std::optional<Box> BoxContractor::reach(const Goal& whole, const Box& box, int depth) {
     if (depth > kMaxDepth || isSpent()) return box;
     const Goal goal = peeled(whole);
-    const Interval range = everywhere[goal.id];
+    const Interval range = rangeOf(goal.id);
     if (goal.above ? range.hi < goal.level : range.lo > goal.level) return std::nullopt;
     if (goal.above ? range.lo >= goal.level : range.hi <= goal.level) return box;
     if (std::abs(goal.level) >= kHuge) return box;
@@ -254,12 +293,15 @@ std::optional<Box> BoxContractor::boundThroughCut(const Goal& goal, int depth) {
         inner.limits.lo[i] = current[cut[i]].lo, inner.limits.hi[i] = current[cut[i]].hi;
         start.lo[i] = everywhere[cut[i]].lo, start.hi[i] = everywhere[cut[i]].hi;
     }
+    // What holds within the box at hand does not hold in all of the cut's space.
+    const uint32_t outerGeneration = std::exchange(rangeGeneration, 0u);
     std::swap(frame, inner);
     isThorough = false;
     std::optional<Box> found = reach(goal, start, depth + 1);
     isThorough = true;
     if (found && !isBounded(*found)) found = reach(goal, *found, depth + 1);
     std::swap(frame, inner);
+    rangeGeneration = outerGeneration;
     if (!found) return std::nullopt;
     for (std::size_t i = 0; i < cut.size(); ++i) ranges.push_back({cut[i], sideOf(*found, i)});
     isThorough = false;
@@ -290,11 +332,26 @@ std::optional<Box> BoxContractor::reachFromOutside(const Goal& goal, const Box& 
                 isFree = isFree && isUnreachable(goal, slab, kMaxShellSplits, depth);
             if (isFree) outer = inner, isBoundedByShells = true;
         }
+        if (isBoundedByShells && outer) trim(goal, *outer, depth);
         if (isBoundedByShells) known = outer;
         frame.fromOutside[key] = known;
     }
     const std::optional<Box>& known = frame.fromOutside[key];
     return known ? common(*known, box) : std::nullopt;
+}
+
+/// Takes slabs off the box's faces in which the goal cannot be met.
+void BoxContractor::trim(const Goal& goal, Box& box, int depth) {
+    for (std::size_t axis = 0; axis < frame.count; ++axis)
+        for (const bool isUpper : {false, true})
+            for (double share = 0.5; share > kSmallestTrim; share *= 0.5) {
+                shellLimit = stepCount + kTrimSteps;
+                const double lo = box.lo[axis], hi = box.hi[axis],
+                             at = std::lerp(lo, hi, isUpper ? 1.0 - share : share);
+                Box slab = box;
+                (isUpper ? slab.lo : slab.hi)[axis] = at;
+                if (isUnreachable(goal, slab, kMaxTrimSplits, depth)) (isUpper ? box.hi : box.lo)[axis] = at;
+            }
 }
 
 /// Whether the goal is met at some sample in the outermost shell.
@@ -345,8 +402,8 @@ std::optional<Box> BoxContractor::reachAny(const Goal& goal, const Box& box, int
         }
         Operand next = at;
         if (node.op == Op::smoothMinimum) {
-            next.chainWidth = std::max(at.chainWidth, everywhere[node.operands[2]].hi);
-            next.level = std::min(roundedUp(at.level + 0.25 * everywhere[node.operands[2]].hi),
+            next.chainWidth = std::max(at.chainWidth, rangeOf(node.operands[2]).hi);
+            next.level = std::min(roundedUp(at.level + 0.25 * rangeOf(node.operands[2]).hi),
                                   roundedUp(at.chainStart + next.chainWidth));
         } else {
             next.chainStart = at.level, next.chainWidth = 0.0;
@@ -487,44 +544,98 @@ std::vector<BoxContractor::Summand> BoxContractor::summandsOf(IrId id) const {
     return summands;
 }
 
+/// The goal as a sum that is at most a level; nothing if a factor is too small to divide by.
+std::optional<BoxContractor::Sum> BoxContractor::sumOf(const Goal& goal) const {
+    Sum sum{.terms = {}, .level = goal.above ? -goal.level : goal.level};
+    for (Summand term : summandsOf(goal.id)) {
+        if (goal.above) term.factor = -term.factor;
+        if (!add(sum, term)) return std::nullopt;
+    }
+    return sum;
+}
+
+/// False if the term's factor is too small to divide by.
+bool BoxContractor::add(Sum& sum, const Summand& term) const {
+    if (isNumber(term.id)) {
+        sum.level = roundedUp(sum.level - leastOf(term));
+        return true;
+    }
+    const auto same = std::ranges::find(sum.terms, term.id, &Summand::id);
+    if (same == sum.terms.end()) {
+        if (term.factor != 0.0) sum.terms.push_back(term);
+        return term.factor == 0.0 || std::abs(term.factor) > kSmallestFactor;
+    }
+    const double before = std::abs(same->factor);
+    same->factor += term.factor;
+    const double rest = std::abs(same->factor);
+    if (rest == 0.0) sum.terms.erase(same);
+    return rest == 0.0 || rest > kSmallestFactor * std::max(1.0, before);
+}
+
+double BoxContractor::leastOf(const Summand& term) const {
+    return (Interval{term.factor, term.factor} * rangeOf(term.id)).lo;
+}
+
+/// |a| + b <= level as a + b <= level and -a + b <= level, if terms of a and b cancel: so a box whose height
+/// and position depend on the same number is bounded.
+std::vector<BoxContractor::Sum> BoxContractor::unfolded(const Sum& sum) const {
+    for (const Summand& magnitude : sum.terms) {
+        if (opOf(magnitude.id) != Op::absolute || magnitude.factor < 0.0) continue;
+        std::vector<Sum> both;
+        for (const double sign : {1.0, -1.0}) {
+            Sum one{.terms = {}, .level = sum.level};
+            std::size_t count = 0;
+            bool isExact = true;
+            for (const Summand& term : sum.terms)
+                if (&term != &magnitude) isExact = isExact && add(one, term), ++count;
+            for (Summand term : summandsOf(ir[magnitude.id].operands[0])) {
+                term.factor *= sign * magnitude.factor;
+                count += !isNumber(term.id);
+                isExact = isExact && add(one, term);
+            }
+            if (isExact && one.terms.size() < count) both.push_back(std::move(one));
+        }
+        if (!both.empty()) return both;
+    }
+    return {};
+}
+
+/// Each term is at most the level less the least values of the others.
+std::optional<Box> BoxContractor::reachTerms(const Sum& sum, const Box& box, int depth) {
+    std::optional<Box> left = box;
+    for (const Summand& term : sum.terms) {
+        double most = sum.level;
+        for (const Summand& other : sum.terms)
+            if (&other != &term) most = roundedUp(most - leastOf(other));
+        if (left && most < kHuge) left = reachTerm(term, most, *left, depth);
+    }
+    return left;
+}
+
+std::optional<Box> BoxContractor::reachTerm(const Summand& term, double most, const Box& box, int depth) {
+    const Interval bound = Interval{most, most} / Interval{term.factor, term.factor};
+    return reach({term.id, term.factor < 0.0, term.factor < 0.0 ? bound.lo : bound.hi}, box, depth + 1);
+}
+
 std::optional<Box> BoxContractor::reachSum(const Goal& goal, const Box& box, int depth) {
     const Constraint whole{goal.id, wantedBy(goal.above, goal.level)};
     std::optional<Box> left = propagate({whole}, box, depth + 1, Effort::quick);
-    if (!left || isBounded(*left)) return left;
-    // Read as: the sum of the terms is at most `level`.
-    const auto valuesOf = [&](const Summand& term) {
-        return Interval{term.factor, term.factor} * everywhere[term.id];
-    };
-    double level = goal.above ? -goal.level : goal.level;
-    std::vector<Summand> terms;
-    for (Summand term : summandsOf(goal.id)) {
-        if (goal.above) term.factor = -term.factor;
-        if (isNumber(term.id))
-            level = roundedUp(level - valuesOf(term).lo);
-        else if (std::abs(term.factor) > kSmallestFactor)
-            terms.push_back(term);
-        else if (term.factor != 0.0)
-            return propagate({whole}, *left, depth + 1);
-    }
-    const auto atMost = [&](const Summand& term, double most, const Box& within) {
-        const Interval bound = Interval{most, most} / Interval{term.factor, term.factor};
-        return reach({term.id, term.factor < 0.0, term.factor < 0.0 ? bound.lo : bound.hi}, within,
-                     depth + 1);
-    };
-    for (const Summand& term : terms) {
-        double most = level;
-        for (const Summand& other : terms)
-            if (&other != &term) most = roundedUp(most - valuesOf(other).lo);
-        if (most >= kHuge) continue;
-        left = atMost(term, most, *left);
-        if (!left) return left;
-    }
-    if (!isBounded(*left)) left = propagate({whole}, *left, depth + 1);
-    if (!left || isBounded(*left) || terms.size() < 2) return left;
+    const std::optional<Sum> sum = left ? sumOf(goal) : std::nullopt;
+    if (!sum) return left && !isBounded(*left) ? propagate({whole}, *left, depth + 1) : left;
+    for (const Sum& one : unfolded(*sum))
+        if (left) left = reachTerms(one, *left, depth);
+    // max(q, 0)^2 as in the distance to a box: there may be more to q.
+    const bool hasExtents = std::ranges::any_of(sum->terms, [&](const Summand& term) {
+        return opOf(term.id) == Op::square && opOf(ir[term.id].operands[0]) == Op::maximum;
+    });
+    if (!left || (isBounded(*left) && !hasExtents)) return left;
+    left = reachTerms(*sum, *left, depth);
+    if (left && !isBounded(*left)) left = propagate({whole}, *left, depth + 1);
+    if (!left || isBounded(*left) || sum->terms.size() < 2) return left;
     std::optional<Box> all;
-    const double part = roundedUp(level / double(terms.size()));
-    for (const Summand& term : terms) {
-        joinInto(all, atMost(term, part, *left));
+    const double part = roundedUp(sum->level / double(sum->terms.size()));
+    for (const Summand& term : sum->terms) {
+        joinInto(all, reachTerm(term, part, *left, depth));
         if (all == left) break;
     }
     return all;

@@ -105,6 +105,11 @@ class BoxContractor {
         IrId id;
         double factor;
     };
+    /// The sum of the terms is at most the level.
+    struct Sum {
+        std::vector<Summand> terms;
+        double level;
+    };
     /// p = x cos(a) +- y sin(a) and q = y cos(a) -+ x sin(a).
     struct Rotation {
         IrId p, q, x, y;
@@ -129,6 +134,13 @@ class BoxContractor {
         KnownGoals throughCuts = {}, fromOutside = {};
     };
 
+    std::optional<Box> repeat(const Goal& goal, const Box& box);
+    void noteRanges(IrId root, const Box& box);
+    /// Of an operation within the box that contract() was given; of others over all of space.
+    Interval rangeOf(IrId id) const {
+        return notedIn[id] == rangeGeneration && rangeGeneration > 0 ? noted[id] : everywhere[id];
+    }
+    void trim(const Goal& goal, Box& box, int depth);
     std::optional<Box> reach(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachTakenApart(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachThroughCut(const Goal& goal, const Box& box, int depth);
@@ -160,6 +172,12 @@ class BoxContractor {
     std::vector<std::vector<Constraint>> casesOf(IrId id) const;
     std::vector<IrId> operandsOf(IrId id, Op op) const;
     std::vector<Summand> summandsOf(IrId id) const;
+    std::optional<Sum> sumOf(const Goal& goal) const;
+    bool add(Sum& sum, const Summand& term) const;
+    double leastOf(const Summand& term) const;
+    std::vector<Sum> unfolded(const Sum& sum) const;
+    std::optional<Box> reachTerms(const Sum& sum, const Box& box, int depth);
+    std::optional<Box> reachTerm(const Summand& term, double most, const Box& box, int depth);
     bool disjoin(IrId id);
     bool narrow(std::span<const IrId> cone, std::span<const Replacement> replacements, int rounds);
     bool projectNode(IrId id);
@@ -195,6 +213,9 @@ class BoxContractor {
     uint32_t stamp = 0;
     std::vector<uint32_t> evaluatedIn;  ///< of each operation: the last evaluation of a cone that had it
     uint32_t evaluation = 0;
+    std::vector<Interval> noted;    ///< of operations, over the box that noteRanges() was given
+    std::vector<uint32_t> notedIn;  ///< when that was
+    uint32_t rangeGeneration = 0;
     Frame frame;
     std::unordered_multimap<IrId, Rotation> rotations;  ///< by the smaller of p and q
     std::unordered_map<IrId, SplineUse> splines;        ///< by the smallest id of its channels

@@ -10,9 +10,9 @@ namespace fw {
 namespace {
 
 /// The second if the first leaves the hull much larger than what samples show of the solid.
-constexpr RefinementEffort kQuick{8'000, 100'000, 12, false}, kThorough{50'000, 1'000'000, 18, true};
+constexpr RefinementEffort kQuick{8'000, 100'000, 12, false}, kThorough{200'000, 12'000'000, 18, true};
 constexpr std::size_t kSamples = 2048;
-constexpr double kCloseRatio = 1.35;
+constexpr double kCloseRatio = 1.35, kCloseSideRatio = 2.0;
 
 /// A tape is simplified if one in so many steps was decided.
 constexpr std::size_t kWorthSimplifying = 16;
@@ -103,8 +103,10 @@ bool HullRefinement::isCloseToSamples() {
         if (values[i] < 0.0)
             inner = inner ? joined(*inner, {points[i], points[i]}) : Box{points[i], points[i]};
     if (!inner) return false;
+    // The longest side decides how fine a grid of so many cells is.
+    if (longestSide(hull()) > kCloseRatio * longestSide(*inner)) return false;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        if (hull().hi[axis] - hull().lo[axis] > kCloseRatio * (inner->hi[axis] - inner->lo[axis]))
+        if (hull().hi[axis] - hull().lo[axis] > kCloseSideRatio * (inner->hi[axis] - inner->lo[axis]))
             return false;
     return true;
 }
