@@ -26,6 +26,7 @@ struct Error {
         divisionByZero,  ///< by a constant, in a node's code
         tooMuchSurface,  ///< more than one mesh can have: in tiles there is room for it
         uselessCache,    ///< a particle cache is not there, or of another simulation: one simulates anew
+        cancelled,       ///< the work was ended by whoever asked for it
     };
 
     std::string message = {};  ///< what is wrong and what to do, one sentence, no full stop needed
@@ -40,6 +41,9 @@ struct Error {
     Code code = Code::other;
     bool operator==(const Error&) const = default;
 };
+
+/// The error of work that was cancelled.
+inline Error cancelledError() { return {.message = "cancelled", .code = Error::Code::cancelled}; }
 
 /// "tower.field.json:12:5: error: node 'cut', input 'b', code 1:14: message"; parts that are unknown are left
 /// out. One line whatever the parts hold: control characters as '?', and long parts are shortened.

@@ -64,7 +64,7 @@ class Calls {
         const py::gil_scoped_release released;
         std::unique_lock lock(mutex);
         ending = true;
-        for (serve::Task* task : tasks) task->cancelled = true;
+        for (serve::Task* task : tasks) task->cancelled.request();
         gone.wait(lock, [] { return tasks.empty(); });
     }
 
@@ -192,7 +192,10 @@ class Document {
                 const py::gil_scoped_release released;
                 if (done.wait_for(kLooksForSignals) == std::future_status::ready) break;
             }
-            if (!interrupted && PyErr_CheckSignals() != 0) interrupted = task.cancelled = true;
+            if (!interrupted && PyErr_CheckSignals() != 0) {
+                interrupted = true;
+                task.cancelled.request();
+            }
         }
         if (interrupted) throw py::error_already_set();
         call.endIfAllEnds();

@@ -95,7 +95,7 @@ void Assistant::serve() {
     }
     {
         const std::lock_guard lock(mutex);
-        for (const TaskPtr& task : tasks) task->cancelled = true;
+        for (const TaskPtr& task : tasks) task->cancelled.request();
     }
     queue.reset();
 }
@@ -198,7 +198,7 @@ void Assistant::cancel(const Request& request) {
     if (id == request.params.end()) return;
     const std::lock_guard lock(mutex);
     for (const TaskPtr& task : tasks)
-        if (task->request.answered && task->request.id == *id) task->cancelled = true;
+        if (task->request.answered && task->request.id == *id) task->cancelled.request();
 }
 
 Answer Assistant::listNodes(Params& params) {

@@ -80,7 +80,7 @@ void Client::serve() {
     }
     {
         const std::lock_guard lock(mutex);
-        for (const TaskPtr& task : tasks) task->cancelled = true;
+        for (const TaskPtr& task : tasks) task->cancelled.request();
     }
     documents.clear();
     closing.clear();
@@ -229,7 +229,10 @@ void Client::cancel(const Request& request) {
     {
         const std::lock_guard lock(mutex);
         for (const TaskPtr& task : tasks)
-            if (id && task->request.answered && task->request.id == *id) task->cancelled = any = true;
+            if (id && task->request.answered && task->request.id == *id) {
+                task->cancelled.request();
+                any = true;
+            }
     }
     Reply reply;
     reply.result["cancelled"] = any;

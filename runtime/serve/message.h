@@ -55,7 +55,8 @@ struct Fault {
     Error error = {};
     std::vector<Error> findings = {};  ///< of a graph, all of them; the error is the first
 
-    Fault(Error error_) : error(std::move(error_)) {}
+    Fault(Error error_)
+        : code(error_.code == Error::Code::cancelled ? kCancelled : kWrongInput), error(std::move(error_)) {}
     Fault(int code_, std::string message) : code(code_), error{.message = std::move(message)} {}
 };
 

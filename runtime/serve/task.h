@@ -1,11 +1,11 @@
 // A request that is being answered.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <memory>
 
 #include "runtime/serve/message.h"
+#include "runtime/system/cancel_flag.h"
 #include "runtime/system/clock.h"
 
 namespace fw::serve {
@@ -26,8 +26,8 @@ inline Tell seldom(Tell tell) {
 
 struct Task {
     Request request;
-    std::atomic<bool> cancelled = false;  ///< looked at wherever work can end
-    Tell tell = {};                       ///< may be empty
+    CancelFlag cancelled;  ///< looked at wherever work can end
+    Tell tell = {};        ///< may be empty
 
     void progress(const char* part, double done) const {
         if (tell) tell(part, done);
