@@ -1,6 +1,5 @@
 #include "editor/files/export_job.h"
 
-#include <atomic>
 #include <filesystem>
 #include <mutex>
 #include <thread>
@@ -13,6 +12,7 @@
 #include "runtime/export/outputs.h"
 #include "runtime/play/mesh_program.h"
 #include "runtime/play/tiled_mesh.h"
+#include "runtime/system/cancel_flag.h"
 #include "runtime/system/clock.h"
 #include "runtime/system/output_file.h"
 
@@ -54,7 +54,7 @@ struct ExportJob::Shared {
 
     ExportWish wish;
     std::function<void()> changed;
-    std::atomic<bool> cancel = false;
+    CancelFlag cancel;
     mutable std::mutex mutex;
     ExportState state;
     float stageBegan = 0.0f;
@@ -123,13 +123,15 @@ Result<ExportJob::Shared::Opened> ExportJob::Shared::open() {
     CompileOptions options;
     options.triangles = wish.triangles;
     options.byShape = wish.file.textures.has_value();
+    options.stop = cancel.token();
     options.bake = meshFieldBaker([&] { return opening.orNone(); });
     Result<Program> program = compileAtTime(
         *wish.graph, wish.seconds, std::move(options), [&] { return opening.orNone(); },
         [&](int, int) { return !cancel; });
     if (!program) return program.error();
     if (!start("region")) return kStopped;
-    const Result<Box> region = meshRegion(*program, wish.mesh, &*wish.graph);
+    const Result<Box> region =
+        meshRegion(*program, wish.mesh, regionContext(*wish.graph, wish.seconds, cancel.token()));
     if (!region) return region.error();
     prepareKernels(*program, [&] { return !opening.isOpen(); });
     if (!start("device")) return kStopped;
@@ -221,10 +223,11 @@ Result<ExportState> ExportJob::Shared::inTiles(Opened opened, int side) {
 Result<ExportState> ExportJob::Shared::asFunctions() {
     if (const Done fine = check(); !fine) return fine.error();
     if (!start("compile")) return kStopped;
-    const Result<Program> program = compileAtTime(*wish.graph, wish.seconds);
+    const Result<Program> program = compileAtTime(*wish.graph, wish.seconds, {.stop = cancel.token()});
     if (!program) return program.error();
     if (!start("region")) return kStopped;
-    const Result<Box> region = meshRegion(*program, wish.mesh, &*wish.graph);
+    const Result<Box> region =
+        meshRegion(*program, wish.mesh, regionContext(*wish.graph, wish.seconds, cancel.token()));
     if (!region) return region.error();
     if (!start("functions")) return kStopped;
     const std::string file = std::filesystem::path(wish.path).filename().string();
@@ -293,11 +296,11 @@ ExportJob::ExportJob(ExportWish wish, std::function<void()> changed) : shared(st
 }
 
 ExportJob::~ExportJob() {
-    shared->cancel = true;
+    shared->cancel.request();
     shared->thread.join();
 }
 
-void ExportJob::cancel() { shared->cancel = true; }
+void ExportJob::cancel() { shared->cancel.request(); }
 bool ExportJob::cancelling() const { return shared->cancel; }
 
 ExportState ExportJob::state() const {

@@ -1,7 +1,6 @@
 #include "editor/files/render_queue.h"
 
 #include <algorithm>
-#include <atomic>
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
@@ -11,6 +10,7 @@
 #include "editor/files/attempt.h"
 #include "runtime/export/outputs.h"
 #include "runtime/pictures/kept_paths.h"
+#include "runtime/system/cancel_flag.h"
 #include "runtime/system/clock.h"
 #include "runtime/system/output_file.h"
 
@@ -33,7 +33,7 @@ struct RenderQueue::Shared {
     std::vector<RenderItem> items;
     uint64_t last = 0;     // id given
     uint64_t running = 0;  // id; 0: none
-    std::atomic<bool> cancel = false;
+    CancelFlag cancel;
     bool ends = false;
     std::thread thread;
 
@@ -157,6 +157,7 @@ Result<Player> RenderQueue::Shared::open(const RenderWish& wish) {
         change([&](RenderState& now) { now.part = kOpened * float(done) / float(std::max(all, 1)); });
         return !cancel;
     };
+    options.stop = [this] { return cancel.token(); };
     return Player::create(*wish.graph, std::move(*device), options);
 }
 
@@ -277,7 +278,8 @@ void RenderQueue::Shared::work() {
             next->state = {.phase = RenderPhase::running};
             running = next->id;
             wish = next->wish;
-            cancel = capped = false;
+            cancel.reset();
+            capped = false;
             findings.clear();
         }
         run(wish);
@@ -291,7 +293,8 @@ RenderQueue::RenderQueue(std::function<void()> changed) : shared(std::make_uniqu
 RenderQueue::~RenderQueue() {
     {
         std::lock_guard lock(shared->mutex);
-        shared->ends = shared->cancel = true;
+        shared->ends = true;
+        shared->cancel.request();
     }
     shared->woken.notify_all();
     if (shared->thread.joinable()) shared->thread.join();
@@ -311,7 +314,10 @@ void RenderQueue::cancel(uint64_t id) {
     if (!item) return;
     if (item->state.phase == RenderPhase::waiting)
         item->state = {.phase = RenderPhase::cancelled, .stage = "cancelled"};
-    if (item->state.phase == RenderPhase::running) item->state.cancelling = shared->cancel = true;
+    if (item->state.phase == RenderPhase::running) {
+        item->state.cancelling = true;
+        shared->cancel.request();
+    }
 }
 
 void RenderQueue::goOn(uint64_t id) {

@@ -16,6 +16,7 @@
 #include "editor/preview/pinned.h"
 #include "graph/check/check.h"
 #include "runtime/play/player.h"
+#include "runtime/system/cancel_flag.h"
 #include "runtime/system/clock.h"
 
 namespace fw::editor {
@@ -56,8 +57,11 @@ struct Overtaken {
     std::atomic<bool> byAny = false;      ///< a newer wish waits
     std::atomic<bool> byEarlier = false;  ///< one of an earlier time: particles need not go as far
     /// One of another graph that no hand is moving, so that a draft will come before this picture is done.
-    std::atomic<bool> byOther = false;
-    void operator=(bool value) { byAny = byEarlier = byOther = value; }
+    CancelFlag byOther;
+    void reset() {
+        byAny = byEarlier = false;
+        byOther.reset();
+    }
 };
 
 }  // namespace
@@ -160,7 +164,8 @@ class Maker {
     bool await = false;    ///< what changed is only what is held: the picture stays until kernels are there
     bool compiled = true;  ///< all kernels were there for the last picture
     bool good = false;     ///< the graph can be drawn
-    bool coarse = false;   ///< the mesh has few cells, that there be a picture soon
+    bool interrupted = false;  ///< the graph was not loaded, for a newer one waits
+    bool coarse = false;       ///< the mesh has few cells, that there be a picture soon
     /// What the solid was measured of.
     struct Measured {
         uint64_t revision, document;
@@ -189,6 +194,7 @@ PlayerOptions Maker::playerOptions() const {
         if (many) simulating(double(done) / all);
         return !overtaken.byOther && !(many && overtaken.byEarlier);
     };
+    options.stop = [this] { return overtaken.byOther.token(); };
     options.view = wish.view;
     return options;
 }
@@ -209,7 +215,7 @@ Done Maker::play(const Graph& graph) {
         return played;
     }
     // A node on the way to the solid may have no bounds.
-    if (wish.pinned.empty()) return played;
+    if (wish.pinned.empty() || played.error().code == Error::Code::cancelled) return played;
     options.region = solid;
     return with(options) ? done() : std::move(played);
 }
@@ -236,8 +242,10 @@ void Maker::load() {
     const Graph shown = showingNode(*wish.graph, wish.pinned);
     const Done played = play(shown);
     good = bool(played);
+    interrupted = !played && played.error().code == Error::Code::cancelled;
     if (good && wish.held.empty()) coarsen();
     checked = checking.get();
+    if (interrupted) return;
     if (!played) {
         if (!hasErrors(checked)) checked.push_back(played.error());
         result.current = false;
@@ -285,14 +293,14 @@ void Maker::take(PreviewWish newer) {
     wish = std::move(newer);
     if (!wish.graph) return;
     const bool samePictures = !aimSights(sights, eyesOf(wish), since) && sameLook;
-    if (!sameGraph || !sameHeld || !sameMesh || first) load();
+    if (!sameGraph || !sameHeld || !sameMesh || first || interrupted) load();
     if (player) player->seek(wish.seconds);
     // Taking hold of an input changes the code and not the picture.
     await = sameGraph && sameMesh && samePictures && !sameHeld && !letGo && result.current;
     // What was valid last can be looked at from elsewhere.
     const bool same = sameGraph && sameHeld && sameMesh && sameLook;
     if (good ? !same && !await : !sameLook) outdateAll();
-    if (!good) tell();
+    if (!good && !interrupted) tell();
 }
 
 /// The scene, and through what camera it is seen.
@@ -360,7 +368,8 @@ void Maker::draw(std::size_t which, bool urgent) {
         if (!overtaken.byOther && !overtaken.byEarlier) refuseAll(mesh.error());
         return;
     }
-    if (const Done aimed = aim(options, sight); !aimed) return refuseAll(aimed.error());
+    if (const Done aimed = aim(options, sight); !aimed)
+        return overtaken.byOther ? void() : refuseAll(aimed.error());
     const SightOf of{player->contentNumber(), options.scene, player->environment(), wish.view, wish.slice,
                      wish.leastWidth,         options.width, options.height};
     const auto saysSo = [&] {
@@ -491,7 +500,7 @@ void Preview::Shared::work() {
             working = true;
             newer = std::exchange(next, std::nullopt);
             if (newer) tried = newer;
-            overtaken = false;
+            overtaken.reset();
         }
         if (newer) maker.take(std::move(*newer));
         more = maker.work();
@@ -545,7 +554,8 @@ Preview::~Preview() {
     {
         std::lock_guard lock(shared->mutex);
         shared->stop = true;
-        shared->overtaken = true;
+        shared->overtaken.byAny = shared->overtaken.byEarlier = true;
+        shared->overtaken.byOther.request();
     }
     shared->asked.notify_all();
     shared->thread.join();
@@ -556,7 +566,7 @@ void Preview::ask(PreviewWish wish) {
     if (shared->last && sameWish(*shared->last, wish)) return;
     shared->overtaken.byAny = true;
     if (shared->last && shared->last->graph != wish.graph && wish.held.empty())
-        shared->overtaken.byOther = true;
+        shared->overtaken.byOther.request();
     if (shared->last && wish.seconds < shared->last->seconds) shared->overtaken.byEarlier = true;
     shared->last = wish;
     shared->next = std::move(wish);

@@ -26,7 +26,7 @@ struct Error {
         divisionByZero,  ///< by a constant, in a node's code
         tooMuchSurface,  ///< more than one mesh can have: in tiles there is room for it
         uselessCache,    ///< a particle cache is not there, or of another simulation: one simulates anew
-        cancelled,       ///< the work was ended by whoever asked for it
+        cancelled,       ///< the caller ended the work
     };
 
     std::string message = {};  ///< what is wrong and what to do, one sentence, no full stop needed

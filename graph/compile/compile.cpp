@@ -199,7 +199,8 @@ std::optional<Error> warningAtHeaviest(const Graph& graph, double NodeEffort::*c
 
 /// A warning if a software driver would be busy for long with the field's code; or with pictures, if asked
 /// for.
-std::optional<Error> slowness(const Graph& graph, Ir& ir, IrId distance, bool pictures) {
+std::optional<Error> slowness(const Graph& graph, Ir& ir, IrId distance, const CompileOptions& options) {
+    bool pictures = options.warnOfPictures;
     double weight = codeWeight(ir, distance, {});
     const auto isSlow = [&] {
         return secondsToCompile(weight) > kMostSecondsToCompile ||
@@ -218,7 +219,7 @@ std::optional<Error> slowness(const Graph& graph, Ir& ir, IrId distance, bool pi
                                      std::to_string(std::lround(compiling)) + " s",
                                  "the host makes meshes where that is sooner, and pictures are drafts");
     if (!pictures) return std::nullopt;
-    const Region region = findRegion(ir, distance, {});
+    const Region region = findRegion(ir, distance, {}, kUnknownLipschitz, options.stop);
     if (region.extent != Extent::bounded) return std::nullopt;
     const double tracing = secondsToTrace(weightAtSurface(ir, distance, families, {}, region.box));
     if (tracing <= kMostSecondsToTrace) return std::nullopt;
@@ -252,8 +253,7 @@ std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& optio
         if (auto problem =
                 fieldProblem(graph, *output, small ? lowering.state.ir : needed, surface[distanceComponent]))
             lowering.findings.push_back(*problem);
-        else if (auto slow =
-                     slowness(graph, lowering.state.ir, surface[distanceComponent], options.warnOfPictures))
+        else if (auto slow = slowness(graph, lowering.state.ir, surface[distanceComponent], options))
             lowering.findings.push_back(*slow);
     }
     return std::move(lowering.findings);

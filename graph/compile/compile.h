@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,9 @@ struct CompileOptions {
     /// compileErrors() also warns of fields that a software device would trace for long. It must find the
     /// solid.
     bool warnOfPictures = false;
+    /// Ends the search for a solid whose distances are measured (measured_field.h); the error then has
+    /// Code::cancelled.
+    std::stop_token stop = {};
 };
 
 /// Compiles the field that the graph's output shows. The Error is the first of check()'s errors, if there are

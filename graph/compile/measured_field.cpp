@@ -13,6 +13,7 @@
 #include "graph/assets/mesh_field.h"
 #include "graph/base/hash.h"
 #include "graph/base/parallel.h"
+#include "graph/compile/unbounded_node.h"
 #include "graph/evaluate/region.h"
 
 namespace fw {
@@ -259,12 +260,15 @@ Result<FieldVolumePtr> measuredField(const Ir& ir, const MeasuredField& wish) {
             if (FieldVolumePtr held = found->second.lock()) return held;
         std::erase_if(known, [](const auto& entry) { return entry.second.expired(); });
     }
-    const Region region = findRegion(ir, wish.distance, {}, wish.lipschitz);
+    const Region region = findRegion(ir, wish.distance, {}, wish.lipschitz, wish.stop);
+    if (wish.stop.stop_requested()) return cancelledError();
     if (region.extent == Extent::empty) return FieldVolumePtr();
     if (region.extent == Extent::unbounded)
         return Error{.message =
-                         "has no end, so that its distances cannot be measured: intersect it with "
-                         "what bounds it first"};
+                         "is unbounded, so its distances cannot be measured: intersect it with a box first"};
+    if (region.extent == Extent::unproven)
+        return Error{.message = "cannot be proven bounded, so its distances cannot be measured: " +
+                                describeUnproven(region.unproven) + "; intersect it with a box first"};
     const auto& [lo, hi] = region.box;
     const VolumeGrid grid = gridAround({lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]},
                                        std::min(wish.resolution, wish.finest), wish.margin);

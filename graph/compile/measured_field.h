@@ -15,6 +15,8 @@
 // what rounds off the field; elsewhere they are too large by parts of a cell at most.
 #pragma once
 
+#include <stop_token>
+
 #include "graph/assets/chamfer.h"
 #include "graph/assets/volume.h"
 #include "graph/base/result.h"
@@ -29,9 +31,11 @@ struct MeasuredField {
     double margin = 0.0;      ///< metres of grid around the solid, beyond the two cells that there are anyway
     double chamfer = 0.0;     ///< radius by which its edges are cut, metres
     int finest = resolution;  ///< samples at most, where no such field is held in memory: then a stand-in
+    std::stop_token stop = {};  ///< ends the search for the solid
 };
 
-/// Errors, with a message only: the solid has no end, or would take too much. Null if there is no solid.
+/// Errors, with a message only: the solid is unbounded or cannot be proven bounded; it would take too much;
+/// cancelledError(). Null if there is no solid.
 Result<FieldVolumePtr> measuredField(const Ir& ir, const MeasuredField& wish);
 
 }  // namespace fw

@@ -3,14 +3,12 @@
 #include <algorithm>
 
 #include "graph/compile/graph_lowering.h"
+#include "graph/compile/mesh_recipe.h"
 #include "graph/rules/structure.h"
 
 namespace fw {
 
-namespace {
-
-/// The nodes that the prefix leads to, each part of which is an instance with a slash behind; null: none.
-const std::vector<Node>* nodesAt(const Graph& graph, std::string_view prefix) {
+const std::vector<Node>* nodesInScope(const Graph& graph, std::string_view prefix) {
     const std::vector<Node>* nodes = &graph.nodes;
     for (std::size_t slash = prefix.find('/'); slash != std::string_view::npos; slash = prefix.find('/')) {
         const Node* instance = findNode(*nodes, std::string(prefix.substr(0, slash)));
@@ -22,7 +20,27 @@ const std::vector<Node>* nodesAt(const Graph& graph, std::string_view prefix) {
     return nodes;
 }
 
-}  // namespace
+std::vector<NodeField> gatherNodeFields(const Graph& graph, const GraphLowering& lowering,
+                                        const std::string& prefix, FieldSelection selection) {
+    std::vector<NodeField> fields;
+    const std::vector<Node>* nodes = nodesInScope(graph, prefix);
+    const LoweredNodes* lowered = lowering.nodesIn(prefix);
+    if (!nodes || !lowered) return fields;
+    const bool all = selection == FieldSelection::all;
+    for (const Node& node : *nodes) {
+        const auto found = lowered->find(node.id);
+        if (found == lowered->end() || found->second.failed || (node.muted && !all)) continue;
+        for (const NodeOutput& output : found->second.outputs) {
+            const int count = componentCount(output.value.type);
+            if (count == 0) continue;
+            if (const auto& mesh = output.value.mesh; mesh && (!all || mesh->read)) continue;
+            NodeField& field =
+                fields.emplace_back(NodeField{node.id, output.name, output.value.type, {}, output.exactness});
+            std::copy_n(output.value.ids.begin(), count, field.roots.begin());
+        }
+    }
+    return fields;
+}
 
 Result<NodeFields> compileNodeFields(const Graph& graph, const std::string& prefix,
                                      const std::string& besides, const CompileOptions& options) {
@@ -32,25 +50,13 @@ Result<NodeFields> compileNodeFields(const Graph& graph, const std::string& pref
     for (const Node& node : graph.nodes)
         if (roleOf(node.type) == NodeRole::output || node.id == besides) targets.push_back(&node);
     NodeFields result;
-    const std::vector<Node>* nodes = nodesAt(graph, prefix);
-    if (!nodes || targets.empty()) return result;
+    if (targets.empty()) return result;
     GraphLowering lowering(graph, options);
     lowering.lowerAll(graph.nodes, "", nullptr, targets);
-    const LoweredNodes* made = lowering.nodesIn(prefix);
-    if (!made) return result;
+    result.fields = gatherNodeFields(graph, lowering, prefix, FieldSelection::ownFields);
     std::vector<IrId> roots;
-    for (const Node& node : *nodes) {
-        const auto found = made->find(node.id);
-        if (found == made->end() || found->second.failed || node.muted) continue;
-        for (const NodeOutput& output : found->second.outputs) {
-            const int count = componentCount(output.value.type);
-            if (count == 0 || output.value.mesh) continue;
-            NodeField& field = result.fields.emplace_back(
-                NodeField{node.id, output.name, output.value.type, {}, output.exactness});
-            std::copy_n(output.value.ids.begin(), count, field.roots.begin());
-            roots.insert(roots.end(), field.roots.begin(), field.roots.begin() + count);
-        }
-    }
+    for (const NodeField& field : result.fields)
+        roots.insert(roots.end(), field.roots.begin(), field.roots.begin() + componentCount(field.type));
     result.ir = lowering.state.ir.compact(roots);
     std::size_t next = 0;
     for (NodeField& field : result.fields)

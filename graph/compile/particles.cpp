@@ -168,7 +168,7 @@ void warnOfDryInflow(GraphLowering& lowering, const NodeAt& at, const ParticleSt
     for (IrId id = 0; id < field.ir.size(); ++id)
         if (field.ir[id].op == Op::parameter) return;
     const Region region = findRegion(field.ir, field.distance(), {});
-    if (region.extent == Extent::unbounded) return;
+    if (region.extent == Extent::unbounded || region.extent == Extent::unproven) return;
     bool outside = region.extent == Extent::empty, thin = false;
     for (int axis = 0; axis < 3; ++axis) {
         const double low = region.box.lo[std::size_t(axis)], high = region.box.hi[std::size_t(axis)];

@@ -1,6 +1,7 @@
 #include "graph/compile/program.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "graph/evaluate/local_lipschitz.h"
 
@@ -39,8 +40,9 @@ std::vector<float> Program::numbers() const {
     return all;
 }
 
-Region findRegion(const Program& program) {
-    return findRegion(program.ir, program.distance(), program.parameters(), program.exactness.lipschitz);
+Region findRegion(const Program& program, std::stop_token stop) {
+    return findRegion(program.ir, program.distance(), program.parameters(), program.exactness.lipschitz,
+                      std::move(stop));
 }
 
 Exactness exactnessWithin(const Program& program, const Box& box) {

@@ -72,8 +72,8 @@ struct Program {
     std::vector<float> numbers() const;
 };
 
-/// Where the program's solid lies, its live values as they are.
-Region findRegion(const Program& program);
+/// The region of the program's solid with its present live values. `stop`: as of region.h.
+Region findRegion(const Program& program, std::stop_token stop = {});
 
 /// The exactness within a box, its live values as they are: as declared, with the Lipschitz constant that
 /// interval differentiation proves there (local_lipschitz.h) where that is smaller. Takes milliseconds.

@@ -45,7 +45,8 @@ Measured measured(GraphLowering& lowering, const NodeAt& at, IrId distance, doub
                                                                       .resolution = resolution,
                                                                       .margin = margin,
                                                                       .chamfer = chamfer,
-                                                                      .finest = lowering.options.finest});
+                                                                      .finest = lowering.options.finest,
+                                                                      .stop = lowering.options.stop});
     if (!volume) return fails("surface", volume.error());
     if (!*volume) return {};
     if (auto problem = tooManySamples(lowering, *volume)) return fails("resolution", *problem);

@@ -26,7 +26,8 @@ int exportImplicit(const ExportOptions& options) {
     if (wanted.planned) return kDone;
     const std::optional<Program> program = openProgram(*graph, options.mesh.graph.time, {});
     if (!program) return kBadInput;
-    const Result<Box> bounds = meshRegion(*program, {region, program->resolution, program->method}, &*graph);
+    const Result<Box> bounds = meshRegion(*program, {region, program->resolution, program->method},
+                                          regionContext(*graph, options.mesh.graph.time));
     if (!bounds) return badInput(wanted, bounds.error());
     const std::string file = std::filesystem::path(options.output).filename().string();
     Result<Exported3mf> made = export3mf(*program, *bounds, unitOf(*graph), file.substr(0, file.find('.')));

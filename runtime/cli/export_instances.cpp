@@ -59,26 +59,28 @@ class SolidMesher {
         Result<Program> program = compileAtTime(shown, options.mesh.graph.time, compileOptions(), {}, {});
         if (!program) return program.error();
         if (given) return mesh(std::move(*program), *given, whole.request.resolution, cell);
-        return found(std::move(*program), cell, &whole.region);
+        return found(std::move(*program), cell, shown, &whole.region);
     }
     /// What is copied, which lies wherever it lies.
     Result<MeshedField> content(const Graph& shown, double cellThere) {
         Result<Program> program = compileAtTime(shown, options.mesh.graph.time, compileOptions(), {}, {});
         if (!program) return program.error();
-        return found(std::move(*program), cellThere, nullptr);
+        return found(std::move(*program), cellThere, shown, nullptr);
     }
 
   private:
-    Result<MeshedField> found(Program program, double cellThere, const Box* otherwise) {
+    /// `otherwise`: the region if the solid is not bounded.
+    Result<MeshedField> found(Program program, double cellThere, const Graph& shown, const Box* otherwise) {
         const auto cellsOf = [&](const Box& box) {
             return std::clamp(int(std::ceil(longestSide(box) / cellThere)), kFewestCells, kMostResolution);
         };
         const Region where = findRegion(program);
-        if (where.extent == Extent::unbounded && !otherwise)
-            return Error{.message = "it goes on without end, or as far as can be told"};
         if (where.extent == Extent::empty) return MeshedField{{}, std::move(program), cellThere};
-        Box box = where.extent == Extent::bounded ? where.box : *otherwise;
-        if (where.extent == Extent::bounded) box = padded(box, cellsOf(box), 1.5);
+        const bool bounded = where.extent == Extent::bounded;
+        if (!bounded && !otherwise)
+            return regionError(program, where, regionContext(shown, options.mesh.graph.time));
+        Box box = bounded ? where.box : *otherwise;
+        if (bounded) box = padded(box, cellsOf(box), 1.5);
         return mesh(std::move(program), box, cellsOf(box), cellThere);
     }
 

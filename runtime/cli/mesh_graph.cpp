@@ -110,7 +110,7 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     progress.start("region", 10);
     const MeshRequest request{region, options.resolution.value_or(program->resolution),
                               options.method.value_or(program->method)};
-    const Result<Box> box = meshRegion(*program, request, &*graph);
+    const Result<Box> box = meshRegion(*program, request, regionContext(*graph, options.graph.time));
     if (!box) return fail(badInput(options, box.error()));
     prepareKernels(*program, [&] { return !device.isOpen(); });
     progress.start("device", 15);

@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "graph/base/words.h"
 #include "graph/check/check.h"
 #include "graph/document/json.h"
 #include "graph/document/named_parameters.h"
@@ -23,6 +24,15 @@ constexpr int kMostHalvings = 2;
 
 Error problem(const Graph& graph, std::string message) {
     return {.message = std::move(message), .file = graph.path};
+}
+
+Error inGraph(const Graph& graph, Error error) {
+    error.file = graph.path;
+    return error;
+}
+
+std::stop_token stopToken(const PlayerOptions& options) {
+    return options.stop ? options.stop() : std::stop_token();
 }
 
 /// The first error that check() finds; the rest goes to `warnings`, which may be null.
@@ -100,6 +110,7 @@ Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& wishe
     compileOptions.bake = bake;
     compileOptions.triangles = wishes.triangles;
     compileOptions.byShape = wishes.byShape;
+    compileOptions.stop = stopToken(wishes);
     std::set<std::string> exposed = wishes.live;
     if (wishes.liveParameters)
         for (const NamedParameter& parameter : namedParameters(graph))
@@ -121,12 +132,13 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
     Program& program = prepared.program;
     const int resolution = options.resolution > 0 ? options.resolution : program.resolution;
     const MeshRequest request{options.region, resolution};
+    RegionContext context{&prepared.graph, 0.0, stopToken(options)};
     prepared.regionFound = !options.region && !program.region;
     if (!prepared.regionFound || !prepared.fieldMoves) {
         const std::vector<double> values = prepared.valuesAt(0.0);
         for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
-        const Result<Box> box = meshRegion(program, request, &prepared.graph);
-        if (!box) return problem(prepared.graph, box.error().message);
+        const Result<Box> box = meshRegion(program, request, context);
+        if (!box) return inGraph(prepared.graph, box.error());
         prepared.region = *box;
         return done();
     }
@@ -134,7 +146,8 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
     std::vector<Region> found(times.size());
     const auto search = [&](std::size_t first, std::size_t step) {
         for (std::size_t i = first; i < times.size(); i += step)
-            found[i] = findRegion(program.ir, program.distance(), prepared.valuesAt(times[i]));
+            found[i] = findRegion(program.ir, program.distance(), prepared.valuesAt(times[i]),
+                                  program.exactness.lipschitz, context.stop);
     };
     const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8);
     {
@@ -144,19 +157,18 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
         search(0, threads);
         for (std::future<void>& other : others) other.get();
     }
+    if (context.stop.stop_requested()) return inGraph(prepared.graph, cancelledError());
     std::optional<Box> all;
     for (std::size_t i = 0; i < times.size(); ++i) {
         if (found[i].extent == Extent::bounded) all = all ? joined(*all, found[i].box) : found[i].box;
-        if (found[i].extent != Extent::unbounded) continue;
-        const std::vector<double> values = prepared.valuesAt(times[i]);
-        for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
-        const Result<Box> box = meshRegion(program, request, &prepared.graph);
-        return problem(prepared.graph, box.error().message + " (at " + std::to_string(times[i]) + " s)");
+        if (found[i].extent == Extent::bounded || found[i].extent == Extent::empty) continue;
+        context.time = times[i];
+        Error error = regionError(program, found[i], context);
+        if (error.code != Error::Code::cancelled) error.message += " (at " + shortNumber(times[i]) + " s)";
+        return inGraph(prepared.graph, std::move(error));
     }
-    if (!all && prepared.timeline.tracks.empty()) {
-        const Result<Box> box = meshRegion(program, request, &prepared.graph);
-        if (!box) return problem(prepared.graph, box.error().message);
-    }
+    if (!all && prepared.timeline.tracks.empty())
+        return inGraph(prepared.graph, regionError(program, found.front(), context));
     if (!all) return problem(prepared.graph, "the solid is empty at every time of its timeline");
     prepared.region = padded(*all, resolution, 1.5);
     return done();
@@ -358,8 +370,9 @@ Result<MesherResult> Player::makeMesh(bool stages, uint32_t show) {
     if (!beyond) result = session.polygonise({region, resolution(), options.method, stages});
     if (result && (beyond || result->capped) && now.regionFound) {
         // Beyond the timeline, or between the times that were looked at, the solid reaches farther.
-        const Result<Box> own = meshRegion(session.program(), {{}, resolution()}, &now.graph);
-        if (!own) return problem(now.graph, own.error().message);
+        const Result<Box> own =
+            meshRegion(session.program(), {{}, resolution()}, {&now.graph, time, stopToken(options)});
+        if (!own) return inGraph(now.graph, own.error());
         region = joined(region, *own);
         result = session.polygonise({region, resolution(), options.method, stages});
     }

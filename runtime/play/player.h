@@ -31,6 +31,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,6 +62,8 @@ struct PlayerOptions {
     std::function<void(double share)> baking = {};
     /// Called while particles are simulated, with the steps that are done and those there are; false ends it.
     std::function<bool(int done, int all)> simulating = {};
+    /// Gives the token that ends the present search for the solid; the error is then cancelledError().
+    std::function<std::stop_token()> stop = {};
     DeviceOptions deviceOptions = {};  ///< further wishes, for a device that presents
 };
 

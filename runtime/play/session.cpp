@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "graph/compile/effort.h"
-#include "graph/compile/endless.h"
+#include "graph/compile/unbounded_node.h"
+#include "graph/document/timeline.h"
 #include "graph/emit/glsl.h"
 #include "graph/evaluate/region.h"
 #include "runtime/measure/field_measure.h"
@@ -41,9 +42,47 @@ Error tooLargeToLookInto(const Program& program) {
                    " s: ask for full quality, or choose another view");
 }
 
+/// The node that makes the context's graph unbounded; nothing if none is found.
+std::optional<UnboundedNode> unboundedNode(const RegionContext& context) {
+    if (!context.graph) return std::nullopt;
+    const Result<Timeline> timeline = readTimeline(*context.graph);
+    if (!timeline) return std::nullopt;
+    UnboundedNodeOptions options;
+    options.time = context.time;
+    options.stop = context.stop;
+    return findUnboundedNode(atTime(*context.graph, *timeline, options.time), options);
+}
+
 }  // namespace
 
-Result<Box> meshRegion(const Program& program, const MeshRequest& request, const Graph* graph) {
+RegionContext regionContext(const Graph& graph, double seconds, std::stop_token stop) {
+    const Result<Timeline> timeline = readTimeline(graph);
+    return {&graph, timeline ? timelineTime(*timeline, seconds) : seconds, std::move(stop)};
+}
+
+Error regionError(const Program& program, const Region& found, const RegionContext& context) {
+    if (found.extent == Extent::empty) {
+        const bool hasParticles =
+            std::ranges::any_of(program.ir.volumes(), [](const auto& v) { return bool(v->particles); });
+        return problem("the solid is empty: the field is nowhere negative; " +
+                       std::string(hasParticles
+                                       ? "if there are no particles yet, look at a later time (--time)"
+                                       : "check the nodes that cut it (subtract, intersect) and its sizes"));
+    }
+    const std::optional<UnboundedNode> node = unboundedNode(context);
+    if (context.stop.stop_requested()) return cancelledError();
+    const bool isUnbounded = found.extent == Extent::unbounded;
+    const std::string what = node ? describe(*node)
+                             : isUnbounded
+                                 ? "the solid is unbounded"
+                                 : "the solid cannot be proven bounded: " + describeUnproven(found.unproven);
+    const bool saysWhere = (node ? node->extent : found.extent) == Extent::unproven;
+    return problem(what + (saysWhere ? "; " : ": ") +
+                   "intersect it with a box, or give a region (--region, or region_min and region_max of a "
+                   "polygonize node)");
+}
+
+Result<Box> meshRegion(const Program& program, const MeshRequest& request, const RegionContext& context) {
     if (request.region || program.region) {
         const Box& box = request.region ? *request.region : *program.region;
         for (int axis = 0; axis < 3; ++axis) {
@@ -56,28 +95,9 @@ Result<Box> meshRegion(const Program& program, const MeshRequest& request, const
         return box;
     }
     const int resolution = request.resolution > 0 ? request.resolution : program.resolution;
-    const Region found = findRegion(program);
-    switch (found.extent) {
-        case Extent::empty: {
-            const bool particles =
-                std::ranges::any_of(program.ir.volumes(), [](const auto& v) { return bool(v->particles); });
-            return problem(
-                std::string(
-                    "the solid is empty: no point within 16 km of the origin has a negative distance (give a "
-                    "region if it lies farther out") +
-                (particles ? "; if there are no particles yet, look at a later time, --time)" : ")"));
-        }
-        case Extent::unbounded: {
-            const std::string endless = graph ? endlessNode(*graph) : std::string();
-            return problem(
-                "the solid has no bounds within 16 km of the origin" +
-                (endless.empty() ? ""
-                                 : ": node " + endless + " goes on without end, or as far as can be told") +
-                "; give a region (region_min and region_max of a polygonize node, or --region x0 y0 "
-                "z0 x1 y1 z1), or intersect it with a box");
-        }
-        case Extent::bounded: break;
-    }
+    const Region found = findRegion(program, context.stop);
+    if (context.stop.stop_requested()) return cancelledError();
+    if (found.extent != Extent::bounded) return regionError(program, found, context);
     return padded(found.box, resolution, 1.5);
 }
 

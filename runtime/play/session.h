@@ -8,6 +8,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -211,9 +212,22 @@ class Session {
     std::shared_ptr<std::atomic<bool>> overtaken;  ///< ends what nextKernels does
 };
 
+struct RegionContext {
+    /// That the program was compiled from; null: errors do not name the node that is unbounded.
+    const Graph* graph = nullptr;
+    double time = 0.0;          ///< on the graph's timeline, seconds
+    std::stop_token stop = {};  ///< ends the search; the error is then cancelledError()
+};
+
+/// The context of a graph at `seconds` after its start.
+RegionContext regionContext(const Graph& graph, double seconds, std::stop_token stop = {});
+
 /// The region that a program is meshed in: the request's, the program's own, or the solid's bounds with a
-/// margin of 1.5 cells. Errors as in Session::polygonise; with the graph that the program was compiled from,
-/// that of a solid without bounds names the node that goes on without end.
-Result<Box> meshRegion(const Program& program, const MeshRequest& request, const Graph* graph = nullptr);
+/// margin of 1.5 cells. Errors as in Session::polygonise, and cancelledError().
+Result<Box> meshRegion(const Program& program, const MeshRequest& request, const RegionContext& context = {});
+
+/// Why a solid has no region: it is empty, unbounded, or cannot be proven bounded. `found` is the result of
+/// findRegion() and not bounded.
+Error regionError(const Program& program, const Region& found, const RegionContext& context);
 
 }  // namespace fw

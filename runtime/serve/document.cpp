@@ -92,6 +92,7 @@ Answer Document::open(Params& params, Task& task) {
             defaults.emplace(parameter.name, inputNumbers(*node, parameter.input));
     tape.reset();
     now = &task;
+    stop = task.cancelled.token();
     if (player) {
         if (const Done made = player->reload(std::move(graph)); !made) return Fault(made.error());
     } else {
@@ -127,6 +128,7 @@ Answer Document::set(Params& params, Task& task) {
         wanted.emplace_back(name, std::move(*numbers));
     }
     now = &task;
+    stop = {};  // all values are set, or none
     tape.reset();
     if (player) {
         for (const auto& [name, numbers] : wanted)
@@ -179,6 +181,7 @@ Answer Document::check(Params& params, Task&) {
 
 std::optional<Fault> Document::play(int resolution, std::optional<MeshMethod> method, Task& task) {
     now = &task;
+    stop = task.cancelled.token();
     PlayerOptions wanted = playing;
     if (resolution > 0) wanted.resolution = resolution;
     if (method) wanted.method = method;
@@ -198,6 +201,7 @@ std::optional<Fault> Document::play(int resolution, std::optional<MeshMethod> me
         now->progress("simulate", double(done) / all);
         return !now->cancelled;
     };
+    wanted.stop = [this] { return stop; };
     Result<Player> made = Player::create(*document, std::move(*device), wanted);
     if (!made) return Fault(made.error());
     player = std::move(*made);
@@ -227,6 +231,7 @@ std::optional<Fault> Document::playAs(Params& params, Task& task) {
 }
 
 Result<Program> Document::folded(Task& task, CompileOptions options) {
+    options.stop = task.cancelled.token();
     options.bake = meshFieldBaker([this] { return player ? &player->device() : nullptr; },
                                   {.progress = [&task](double share) { task.progress("bake", share); }});
     std::optional<Fault> fault;

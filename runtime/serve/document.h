@@ -13,6 +13,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <utility>
 #include <variant>
 
@@ -84,6 +85,7 @@ class Document {
     PlayerOptions playing;
     Picture sketched, lived;   ///< the last ones of a draft and of the live view
     Task* now = nullptr;       ///< whom the player's work is for
+    std::stop_token stop;      ///< of that; of work that cannot be cancelled, none
     std::optional<Tape> tape;  ///< of eval: of these values and this time
     mutable std::mutex showing;
     Json shown = Json::array();

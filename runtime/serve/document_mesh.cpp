@@ -182,7 +182,8 @@ Answer Document::exportMesh(Params& params, Task& task) {
                               method           ? method
                               : playing.method ? *playing.method
                                                : program->method};
-    const Result<Box> region = meshRegion(*program, request, &graph());
+    const Result<Box> region =
+        meshRegion(*program, request, regionContext(graph(), seconds, task.cancelled.token()));
     if (!region) return Fault(region.error());
     Result<Device> device = openDevice();
     if (!device) return Fault(kSystemFault, device.error().message);

@@ -177,6 +177,19 @@ TEST(TrueDistance, IsEvenForWhatIsBentAndTwisted) {
     EXPECT_LE(off, 6);
 }
 
+TEST(TrueDistance, IsCancelled) {
+    const Graph graph = graphOf(
+        R"({"id": "s", "type": "expression", "code": "return 3.0 * length(p) - 0.987654;"},
+        {"id": "t", "type": "true_distance", "inputs": {"surface": {"from": "s"}, "resolution": 16}})",
+        "t");
+    std::stop_source stop;
+    stop.request_stop();
+    const Result<Program> cancelled = compile(graph, {.stop = stop.get_token()});
+    ASSERT_FALSE(cancelled);
+    EXPECT_EQ(cancelled.error().code, Error::Code::cancelled);
+    EXPECT_TRUE(compile(graph));
+}
+
 TEST(TrueDistance, SaysWhatItCannotMeasure) {
     const auto messageOf = [](const std::string& nodes, const std::string& shown,
                               const CompileOptions& options = {}) {
@@ -186,7 +199,7 @@ TEST(TrueDistance, SaysWhatItCannotMeasure) {
     EXPECT_NE(messageOf(R"({"id": "l", "type": "lattice"},
         {"id": "t", "type": "true_distance", "inputs": {"surface": {"from": "l"}}})",
                         "t")
-                  .find("has no end"),
+                  .find("is unbounded, so its distances cannot be measured"),
               std::string::npos);
     const std::string moving =
         R"({"id": "s", "type": "expression", "code": "return length(p) * 2.0 - 1.0 - 0.1 * sin(time);"},

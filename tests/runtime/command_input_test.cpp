@@ -172,12 +172,12 @@ TEST(CommandInput, CodeThatMultipliesItsCost) {
 
 TEST(CommandInput, SolidsThatCannotBeMeshed) {
     expectBadGraph(document(R"({"id": "a", "type": "plane"})"),
-                   {"no bounds", "node 'a' (Plane) goes on without end", "--region x0 y0 z0 x1 y1 z1",
-                    "of a polygonize node"});
+                   {"node 'a' (Plane) is unbounded: intersect it with a box, or give a region (--region, or "
+                    "region_min and region_max of a polygonize node)"});
     expectBadGraph(document(R"({"id": "b", "type": "sphere"},
                                {"id": "a", "type": "repeat", "inputs": {"surface": {"from": "b"}}})"),
-                   {"no bounds"});
-    expectBadGraph(code("return 1;"), {"the solid is empty"});
+                   {"node 'a' (Repeat) is unbounded"});
+    expectBadGraph(code("return 1;"), {"the solid is empty: the field is nowhere negative; "});
     expectBadGraph(ball("0"), {"the solid is empty"});
     expectBadGraph(document(R"({"id": "b", "type": "sphere"},
         {"id": "c", "type": "translate", "inputs": {"surface": {"from": "b"}, "offset": [3, 0, 0]}},

@@ -664,7 +664,7 @@ TEST(RenderCommand, SaysWhatIsWrong) {
         {"", "-o a.png --region 5 5 5 6 6 6", 1, "does not pass through the region"},
         {R"({"id": "floor", "type": "plane"},
             {"id": "out", "type": "output", "inputs": {"surface": {"from": "floor"}}})",
-         "-o a.png", 1, "graph.field.json: error: the solid has no bounds"},
+         "-o a.png", 1, "graph.field.json: error: node 'floor' (Plane) is unbounded"},
         {R"({"id": "out", "type": "output", "inputs": {"surface": {"from": "nobody"}}})", "-o a.png", 1,
          "nobody"},
     };
