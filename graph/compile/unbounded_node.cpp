@@ -279,7 +279,7 @@ class UnboundedNodeSearch {
         return std::nullopt;
     }
 
-    /// What is linked to an input of the instance that the prefix ends with.
+    /// The link at an input of the instance that the prefix ends with.
     std::optional<std::pair<std::string, Link>> givenToInstance(const std::string& prefix,
                                                                 const std::string& name) const {
         const std::size_t slash =

@@ -4,9 +4,9 @@
 // which has a field that is not bounded, and ends at one whose surface inputs are all bounded, or that has
 // none: a plane, a repetition without a count. Groups are entered; reroutes and muted nodes are passed.
 //
-// Of several unbounded inputs one is followed: an operand of the node's outermost minimum first, for the
-// node's solid contains it, else the first in the order of the inputs, which of `subtract` is the solid that
-// is cut.
+// If several inputs are not bounded, the search follows one of them. It prefers an unbounded operand of the
+// node's outermost minimum, because the node's solid contains it. Otherwise it takes the first in the order
+// of the inputs, so for `subtract` the solid that is cut.
 #pragma once
 
 #include <optional>

@@ -84,7 +84,7 @@ TEST(UnboundedNode, ShapesThatAreCutAreNotNamed) {
                               node("all", "union", from("a", "lens") + "," + from("b", "drill")),
                           "all"),
               "node 'drill' (Infinite cylinder) is unbounded");
-    // A plane that is subtracted is not the cause, whatever comes after it.
+    // A plane that is subtracted is not the cause.
     EXPECT_EQ(describeFor(node("ground", "plane") + "," + node("slab", "slab") + "," +
                               node("cut", "subtract", from("a", "slab") + "," + from("b", "ground")),
                           "cut"),
@@ -250,7 +250,7 @@ TEST(UnboundedNode, APartOfAUnionThatIsUnboundedComesFirst) {
 TEST(UnboundedNode, TheTimeCounts) {
     // Cut until 1 s.
     const std::string nodes =
-        node("e", "expression", "", R"(, "code": "return max(p.y, (length(p) - 1) * step(time, 1));")");
+        node("e", "expression", "", R"(, "code": "return max(p.y, (length(p) - 1) * step(time, 1) - 0.1);")");
     const Graph graph = graphOf(nodes, "e");
     EXPECT_TRUE(findUnboundedNode(graph, {.time = 2.0}));
     EXPECT_FALSE(findUnboundedNode(graph, {.time = 0.0}));

@@ -1,8 +1,9 @@
-// meshRegion(): what it says of solids that have no region, and that it can be cancelled. Needs no device.
+// meshRegion(): its messages for solids without a region, and that it can be cancelled; the same of Player.
 #include <gtest/gtest.h>
 
 #include "graph/document/json.h"
 #include "runtime/play/mesh_program.h"
+#include "runtime/play/player.h"
 #include "runtime/play/session.h"
 
 namespace fw::mesh_region_test {
@@ -62,21 +63,60 @@ TEST(MeshRegion, SaysThatASolidIsEmpty) {
               "intersect) and its sizes");
 }
 
+/// The ball cuts the half space only before 1 s.
+Graph cutForASecond() {
+    return graphOf(
+        R"({"id": "e", "type": "expression",
+            "code": "return max(p.y, (length(p) - 1) * step(time, 1) - 0.1);"})",
+        "e", R"(, "timeline": {"length": 4, "tracks": []})");
+}
+
 TEST(MeshRegion, LooksAtTheGraphAtItsTime) {
-    // The ball cuts the half space only before 1 s.
-    const Graph graph = graphOf(R"({"id": "ball", "type": "sphere"},
-            {"id": "e", "type": "expression", "code": "return max(p.y, (length(p) - 1) * step(time, 1));"})",
-                                "e", R"(, "timeline": {"length": 4, "tracks": []})");
-    EXPECT_TRUE(regionAt(graph, 0.0));
-    EXPECT_TRUE(messageOf(graph, 2.0).starts_with("node 'e' (Expression) is unbounded: "))
-        << messageOf(graph, 2.0);
+    EXPECT_TRUE(regionAt(cutForASecond(), 0.0));
+    EXPECT_EQ(messageOf(cutForASecond(), 2.0), std::string("node 'e' (Expression) is unbounded: ") + kRemedy);
+}
+
+Result<Player> playerOf(const Graph& graph, const PlayerOptions& options = {}) {
+    Result<Device> device = createDevice({});
+    if (!device) return device.error();
+    return Player::create(graph, std::move(*device), options);
+}
+
+TEST(MeshRegion, APlayerNamesTheNodeAndTheTime) {
+    const Result<Player> player = playerOf(cutForASecond());
+    ASSERT_FALSE(player);
+    const std::string& message = player.error().message;
+    EXPECT_TRUE(message.starts_with("node 'e' (Expression) is unbounded: ")) << message;
+    EXPECT_TRUE(message.ends_with(" s)")) << message;
+}
+
+TEST(MeshRegion, APlayerRefusesWhatIsUnprovenAtSomeTime) {
+    const Result<Player> player = playerOf(graphOf(
+        R"({"id": "ball", "type": "sphere"},
+           {"id": "by", "type": "expression", "code": "return lerp(p, p * sin(p.yzx), step(1, time));"},
+           {"id": "w", "type": "warp", "inputs": {"surface": {"from": "ball"}, "p": {"from": "by"}}})",
+        "w", R"(, "timeline": {"length": 4, "tracks": []})"));
+    ASSERT_FALSE(player);
+    EXPECT_TRUE(player.error().message.starts_with("node 'w' (Warp) cannot be proven bounded: "))
+        << player.error().message;
+}
+
+TEST(MeshRegion, APlayerIsCancelled) {
+    const auto stop = std::make_unique<std::stop_source>();  // on the stack GCC 12 warns of it at -Og
+    stop->request_stop();
+    for (const Graph& graph : {cutForASecond(), graphOf(R"({"id": "b", "type": "sphere"})", "b")}) {
+        const Result<Player> player = playerOf(graph, {.stop = [&] { return stop->get_token(); }});
+        ASSERT_FALSE(player);
+        EXPECT_EQ(player.error().message, "cancelled");
+        EXPECT_EQ(player.error().code, Error::Code::cancelled);
+    }
 }
 
 TEST(MeshRegion, IsCancelled) {
-    std::stop_source stop;
-    stop.request_stop();
+    const auto stop = std::make_unique<std::stop_source>();  // on the stack GCC 12 warns of it at -Og
+    stop->request_stop();
     for (const Graph& graph : {graphOf(kPlane, "ground"), graphOf(kWarped, "w")}) {
-        const Result<Box> region = regionAt(graph, 0.0, stop.get_token());
+        const Result<Box> region = regionAt(graph, 0.0, stop->get_token());
         ASSERT_FALSE(region);
         EXPECT_EQ(region.error(), cancelledError());
     }
