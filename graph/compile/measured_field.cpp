@@ -260,7 +260,10 @@ Result<FieldVolumePtr> measuredField(const Ir& ir, const MeasuredField& wish) {
             if (FieldVolumePtr held = found->second.lock()) return held;
         std::erase_if(known, [](const auto& entry) { return entry.second.expired(); });
     }
-    const Region region = findRegion(ir, wish.distance, {}, wish.lipschitz, wish.stop);
+    // Other parts of the graph may read live parameters.
+    IrId distance = wish.distance;
+    const Ir needed = ir.compact(std::span(&distance, 1));
+    const Region region = findRegion(needed, distance, {}, wish.lipschitz, wish.stop);
     if (wish.stop.stop_requested()) return cancelledError();
     if (region.extent == Extent::empty) return FieldVolumePtr();
     if (region.extent == Extent::unbounded)

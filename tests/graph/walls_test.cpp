@@ -177,6 +177,18 @@ TEST(TrueDistance, IsEvenForWhatIsBentAndTwisted) {
     EXPECT_LE(off, 6);
 }
 
+TEST(TrueDistance, OtherPartsMayBeLive) {
+    const Graph graph = graphOf(
+        R"({"id": "moving", "type": "sphere", "inputs": {"radius": 2}},
+        {"id": "s", "type": "expression", "code": "return 3.0 * length(p) - 0.123456;"},
+        {"id": "t", "type": "true_distance", "inputs": {"surface": {"from": "s"}, "resolution": 16}},
+        {"id": "u", "type": "union", "inputs": {"a": {"from": "t"}, "b": {"from": "moving"}}})",
+        "u");
+    const Result<Program> program = compile(graph, {.live = {"moving.radius"}});
+    ASSERT_TRUE(program) << format(program.error());
+    EXPECT_EQ(program->live.size(), 1u);
+}
+
 TEST(TrueDistance, IsCancelled) {
     const Graph graph = graphOf(
         R"({"id": "s", "type": "expression", "code": "return 3.0 * length(p) - 0.987654;"},
