@@ -27,6 +27,29 @@ std::vector<double> LiveProgram::valuesAt(double seconds) const {
     return values;
 }
 
+std::vector<Interval> LiveProgram::rangesBetween(double from, double to) const {
+    std::vector<Interval> ranges;
+    for (const double value : program.parameters()) ranges.push_back({value, value});
+    std::map<std::string, std::vector<Interval>> moved;  // several tracks may move one vector
+    const auto place = [&](const Input& input, const std::vector<Interval>& numbers) {
+        for (std::size_t c = 0; c < input.slots.size(); ++c)
+            if (input.slots[c] >= 0) ranges[static_cast<std::size_t>(input.slots[c])] = numbers[c];
+    };
+    for (const auto& [name, input] : inputs) {
+        std::vector<Interval>& numbers = moved[name];
+        for (const double value : input.value) numbers.push_back({value, value});
+        place(input, numbers);
+    }
+    for (const Motion& motion : motions) {
+        const std::string name = motion.input.node + "." + motion.input.input;
+        applyTrackRange(motion.track, motion.input, from, to, moved.at(name));
+        place(inputs.at(name), moved.at(name));
+    }
+    for (std::size_t slot = 0; slot < ranges.size(); ++slot)
+        if (program.live[slot].name == "time") ranges[slot] = {from, to};
+    return ranges;
+}
+
 Result<LiveProgram> compileLive(Graph graph, CompileOptions options, const std::set<std::string>& exposed) {
     LiveProgram made;
     Result<Timeline> timeline = readTimeline(graph);

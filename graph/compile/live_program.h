@@ -36,6 +36,8 @@ struct LiveProgram {
 
     /// The live parameters' values so many seconds after the start.
     std::vector<double> valuesAt(double seconds) const;
+    /// Intervals that contain the live parameters' values at all times from `from` to `to` on the timeline.
+    std::vector<Interval> rangesBetween(double from, double to) const;
 };
 
 /// Compiles the document with what moves live, and what `options` and `exposed` say: further inputs,

@@ -50,6 +50,12 @@ double hermite(double a, double b, double slopeA, double slopeB, double u) {
            slopeB * (u3 - u2);
 }
 
+/// Its derivative by u.
+double hermiteSlope(double a, double b, double slopeA, double slopeB, double u) {
+    const double u2 = u * u;
+    return (b - a) * (6 * u - 6 * u2) + slopeA * (3 * u2 - 4 * u + 1) + slopeB * (3 * u2 - 2 * u);
+}
+
 /// The input's name without the component that may follow it.
 std::pair<std::string, int> splitComponent(const std::string& name) {
     const std::size_t dot = name.rfind('.');
@@ -141,6 +147,35 @@ std::vector<double> evaluate(const Track& track, double time) {
     return value;
 }
 
+Interval rangeBetween(const Track& track, std::size_t c, double from, double to) {
+    Interval range{evaluate(track, from)[c], evaluate(track, from)[c]};
+    const auto include = [&](double value) { range = hull(range, {value, value}); };
+    include(evaluate(track, to)[c]);
+    for (std::size_t i = 0; i < track.keys.size(); ++i) {
+        const Key& key = track.keys[i];
+        if (key.time >= from && key.time <= to) include(key.value[c]);
+        if (i + 1 == track.keys.size() || key.interpolation != Interpolation::cubic) continue;
+        const Key& next = track.keys[i + 1];
+        if (next.time <= from || key.time >= to) continue;
+        // The part of the segment as a Bézier curve, which lies between its control values.
+        const double width = next.time - key.time;
+        const auto at = [&](double time) {
+            return eased(key.ease, std::clamp((time - key.time) / width, 0.0, 1.0));
+        };
+        const double first = at(from), last = at(to);
+        const double out = width * slopeAt(track, i, c, KeySide::out),
+                     in = width * slopeAt(track, i + 1, c, KeySide::in);
+        for (const double end : {first, last}) {
+            const double slope = hermiteSlope(key.value[c], next.value[c], out, in, end);
+            include(hermite(key.value[c], next.value[c], out, in, end));
+            include(hermite(key.value[c], next.value[c], out, in, end) +
+                    slope * (end == first ? last - first : first - last) / 3.0);
+        }
+    }
+    const double rounding = 1e-12 * absolute(range).hi;
+    return {range.lo - rounding, range.hi + rounding};
+}
+
 std::optional<AnimatedInput> animatedInput(const Graph& graph, const Track& track) {
     AnimatedInput found;
     if (track.target == Track::Target::scene) return std::nullopt;
@@ -184,6 +219,19 @@ void applyTrack(const Track& track, const AnimatedInput& input, double time, std
         const bool one = input.component >= 0 || value.size() == 1;
         if (!one && c >= value.size()) break;
         numbers[c] = std::min(std::max(value[one ? 0 : c], input.min), input.max);
+    }
+}
+
+void applyTrackRange(const Track& track, const AnimatedInput& input, double from, double to,
+                     std::vector<Interval>& numbers) {
+    const std::size_t count = track.keys.front().value.size();
+    for (std::size_t c = 0; c < numbers.size(); ++c) {
+        if (input.component >= 0 && c != static_cast<std::size_t>(input.component)) continue;
+        const bool one = input.component >= 0 || count == 1;
+        if (!one && c >= count) break;
+        const Interval range = rangeBetween(track, one ? 0 : c, from, to);
+        numbers[c] = {std::min(std::max(range.lo, input.min), input.max),
+                      std::min(std::max(range.hi, input.min), input.max)};
     }
 }
 

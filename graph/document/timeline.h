@@ -43,6 +43,7 @@
 #include <string_view>
 #include <vector>
 
+#include "graph/base/interval.h"
 #include "graph/base/result.h"
 #include "graph/document/graph.h"
 
@@ -126,6 +127,10 @@ std::vector<double> momentsOf(const Timeline& timeline);
 /// The track's value at a time on the timeline. The track has keys, in the order of their times.
 std::vector<double> evaluate(const Track& track, double time);
 
+/// An interval that contains component `c` of the track's value at all times from `from` to `to` on the
+/// timeline. The track has keys, in the order of their times.
+Interval rangeBetween(const Track& track, std::size_t c, double from, double to);
+
 /// The slope of component `c`, in units per second, with which a cubic curve arrives at key `i` or leaves it.
 /// There is more than one key.
 enum class KeySide : unsigned char { in, out };
@@ -153,6 +158,10 @@ std::set<std::string> animatedInputs(const Graph& graph, const Timeline& timelin
 
 /// Sets the numbers of an animated input to what its track gives at a time on the timeline, within the range.
 void applyTrack(const Track& track, const AnimatedInput& input, double time, std::vector<double>& numbers);
+
+/// The same for intervals of numbers: what applyTrack() gives at all times from `from` to `to`.
+void applyTrackRange(const Track& track, const AnimatedInput& input, double from, double to,
+                     std::vector<Interval>& numbers);
 
 /// The document with every animated input and value of the scene as they are at a time on the timeline.
 Graph atTime(const Graph& graph, const Timeline& timeline, double time);

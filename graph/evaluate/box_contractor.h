@@ -54,7 +54,7 @@ namespace fw {
 
 /// Up to this coordinate solids are searched for that only a search over space bounds, in units of the
 /// document.
-inline constexpr double kFarthest = 16384.0;
+inline constexpr double kFarthest = 65536.0;
 
 /// All of space; its ends stand for infinity, as those of intervals.
 inline constexpr Box kAllSpace{{-kHuge, -kHuge, -kHuge}, {kHuge, kHuge, kHuge}};

@@ -10,7 +10,7 @@ namespace fw {
 namespace {
 
 /// The second if the first leaves the hull much larger than what samples show of the solid.
-constexpr RefinementEffort kQuick{8'000, 100'000, 12, false}, kThorough{200'000, 12'000'000, 18, true};
+constexpr RefinementEffort kQuick{20'000, 120'000, 18, false}, kThorough{200'000, 12'000'000, 18, true};
 constexpr std::size_t kSamples = 2048;
 constexpr double kCloseRatio = 1.35, kCloseSideRatio = 2.0;
 

@@ -12,7 +12,7 @@ namespace fw {
 namespace {
 
 constexpr std::size_t kPartSteps = 4'000'000;  // of operations on intervals, for one part
-constexpr std::size_t kContractionSteps = 20'000'000;
+constexpr std::size_t kContractionSteps = 8'000'000;
 
 /// Bounds a part that the contractor alone does not bound.
 class ShellSearch {

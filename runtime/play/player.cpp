@@ -10,6 +10,7 @@
 
 #include "graph/base/words.h"
 #include "graph/check/check.h"
+#include "graph/compile/moving_region.h"
 #include "graph/document/json.h"
 #include "graph/document/named_parameters.h"
 #include "graph/evaluate/region.h"
@@ -142,36 +143,21 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
         prepared.region = *box;
         return done();
     }
-    const std::vector<double> times = momentsOf(prepared.timeline);
-    std::vector<Region> found(times.size());
-    const auto search = [&](std::size_t first, std::size_t step) {
-        for (std::size_t i = first; i < times.size(); i += step)
-            found[i] = findRegion(program.ir, program.distance(), prepared.valuesAt(times[i]),
-                                  program.exactness.lipschitz, context.stop);
-    };
-    const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8);
-    {
-        std::vector<std::future<void>> others;
-        for (std::size_t i = 1; i < threads; ++i)
-            others.push_back(std::async(std::launch::async, search, i, threads));
-        search(0, threads);
-        for (std::future<void>& other : others) other.get();
-    }
+    const MovingRegion found = findMovingRegion(prepared, context.stop);
     if (context.stop.stop_requested()) return inGraph(prepared.graph, cancelledError());
-    std::optional<Box> all;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-        if (found[i].extent == Extent::bounded) all = all ? joined(*all, found[i].box) : found[i].box;
-        if (found[i].extent == Extent::bounded || found[i].extent == Extent::empty) continue;
-        context.time = times[i];
-        Error error = regionError(program, found[i], context);
-        if (error.code != Error::Code::cancelled) error.message += " (at " + shortNumber(times[i]) + " s)";
-        return inGraph(prepared.graph, std::move(error));
+    if (found.region.extent == Extent::bounded) {
+        prepared.region = padded(found.region.box, resolution, 1.5);
+        return done();
     }
-    if (!all && prepared.timeline.tracks.empty())
-        return inGraph(prepared.graph, regionError(program, found.front(), context));
-    if (!all) return problem(prepared.graph, "the solid is empty at every time of its timeline");
-    prepared.region = padded(*all, resolution, 1.5);
-    return done();
+    if (found.region.extent == Extent::empty && !prepared.timeline.tracks.empty())
+        return problem(prepared.graph, "the solid is empty at every time of its timeline");
+    context.time = found.time;
+    const std::vector<double> values = prepared.valuesAt(found.time);
+    for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
+    Error error = regionError(program, found.region, context);
+    if (error.code != Error::Code::cancelled && found.region.extent != Extent::empty)
+        error.message += " (at " + shortNumber(found.time) + " s)";
+    return inGraph(prepared.graph, std::move(error));
 }
 
 void Player::adopt(Prepared prepared) {

@@ -304,16 +304,18 @@ TEST(SplineTable, SlopesAreThoseOfTheValues) {
     EXPECT_LT(wrong, all / 100);
 }
 
-/// Across and up are the distance's two parts, and along is how far the nearest place lies.
 TEST(SplineTable, PositionsThatAreNaNGiveNaN) {
     std::mt19937 random(1);
     const SplineTablePtr table = splineTable(through(randomKnots(random, 7, true), SplineKind::smooth), 0);
     for (int channel = 0; channel < kSplineChannels; ++channel) {
         const SplineSample sample = sampleSpline(*table, SplineChannel(channel), glm::dvec3(NAN, 0, 0));
-        if (SplineChannel(channel) == SplineChannel::distance) EXPECT_TRUE(std::isnan(sample.value));
+        if (SplineChannel(channel) == SplineChannel::distance) {
+            EXPECT_TRUE(std::isnan(sample.value));
+        }
     }
 }
 
+/// Across and up are the distance's two parts, and along is how far the nearest place lies.
 TEST(SplineTable, CoordinatesLeadBackToThePlace) {
     std::mt19937 random(11);
     const SplinePtr spline = through(randomKnots(random, 7, true), SplineKind::smooth);

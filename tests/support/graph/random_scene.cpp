@@ -438,11 +438,11 @@ RandomScene sceneOf(uint32_t seed, bool moving) {
             all = id;
             continue;
         }
+        // No morph: nobody fades between solids that stand metres apart; solidPart() fades those at one place.
         const double kind = random.between(0, 1);
-        const char* type = kind < 0.72   ? "union"
-                           : kind < 0.82 ? "subtract"
-                           : kind < 0.92 ? "xor"
-                           : kind < 0.97 ? "morph"
+        const char* type = kind < 0.75   ? "union"
+                           : kind < 0.85 ? "subtract"
+                           : kind < 0.95 ? "xor"
                                          : "intersect";
         if (type == std::string("intersect")) {
             // Two solids apart have nothing in common; a large box around most of the scene has.
