@@ -1,6 +1,7 @@
 #include "graph/compile/moving_region.h"
 
 #include <algorithm>
+#include <cmath>
 #include <future>
 #include <optional>
 #include <thread>
@@ -23,9 +24,12 @@ class MotionProof {
     MotionProof(const LiveProgram& live_, std::optional<Box>& hull_, std::stop_token stop_)
         : live(live_), hull(hull_), stop(std::move(stop_)) {}
 
-    void prove(double from, double to) {
+    /// False if nothing bounds what may lie outside the hull.
+    bool prove(double from, double to) {
         stepsLeft = kStepsOfInterval;
+        isBoundedBetween = true;
         prove(from, to, spaceOutside(), kMaxTimeHalvings);
+        return isBoundedBetween;
     }
 
   private:
@@ -58,12 +62,25 @@ class MotionProof {
 
     void split(BoxContractor& contractor, const Box& box, int halvings) {
         const std::optional<Box> rest = contractor.contract(live.program.distance(), 0.0, box);
-        if (!rest || (hull && joined(*hull, *rest) == *hull)) return;
-        if (halvings == 0 || !isBounded(*rest) || stop.stop_requested() || contractor.steps() >= stepsLeft) {
+        if (!rest || isFlat(*rest) || (hull && joined(*hull, *rest) == *hull)) return;
+        if (!isBounded(*rest)) {
+            isBoundedBetween = false;
+            return;
+        }
+        if (halvings == 0 || stop.stop_requested() || contractor.steps() >= stepsLeft) {
             hull = hull ? joined(*hull, *rest) : *rest;
             return;
         }
         for (const Box& half : halvesOf(*rest)) split(contractor, half, halvings - 1);
+    }
+
+    /// Without thickness a box holds no solid, which is an open set.
+    static bool isFlat(const Box& box) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (box.hi[axis] - box.lo[axis] <=
+                1e-12 * std::max(std::abs(box.lo[axis]), std::abs(box.hi[axis])))
+                return true;
+        return false;
     }
 
     void take(const BoxContractor& contractor) { stepsLeft -= std::min(stepsLeft, contractor.steps()); }
@@ -72,6 +89,7 @@ class MotionProof {
     std::optional<Box>& hull;
     std::stop_token stop;
     std::size_t stepsLeft = 0;
+    bool isBoundedBetween = true;
 };
 
 }  // namespace
@@ -97,17 +115,16 @@ MovingRegion findMovingRegion(const LiveProgram& live, std::stop_token stop) {
     for (std::size_t i = 0; i < times.size(); ++i) {
         if (found[i].extent == Extent::bounded) hull = hull ? joined(*hull, found[i].box) : found[i].box;
         if (found[i].extent != Extent::bounded && found[i].extent != Extent::empty)
-            return {found[i], times[i]};
+            return {found[i], times[i], {}};
     }
     MotionProof proof(live, hull, stop);
+    std::optional<std::pair<double, double>> unproven;
     for (std::size_t i = 0; i + 1 < times.size() && !stop.stop_requested(); ++i) {
-        proof.prove(times[i], times[i + 1]);
-        if (hull && !isBounded(*hull))
-            return {{Extent::unproven, *hull, *hull}, 0.5 * (times[i] + times[i + 1])};
+        if (!proof.prove(times[i], times[i + 1]) && !unproven) unproven = {times[i], times[i + 1]};
     }
-    if (stop.stop_requested()) return {{Extent::unproven, {}, {}}, times.front()};
-    if (!hull) return {{Extent::empty, {}, {}}, times.front()};
-    return {{Extent::bounded, *hull, {}}, 0.0};
+    if (stop.stop_requested()) return {{Extent::unproven, {}, {}}, times.front(), {}};
+    if (!hull) return {{Extent::empty, {}, {}}, times.front(), {}};
+    return {{Extent::bounded, *hull, {}}, 0.0, unproven};
 }
 
 }  // namespace fw

@@ -439,7 +439,9 @@ std::optional<Box> BoxContractor::reachSelected(const Goal& goal, const Box& box
     const IrNode& node = ir[goal.id];
     const IrId condition = node.operands[0];
     std::optional<Box> all;
+    const Interval known = rangeOf(condition);
     for (const std::size_t branch : {1, 2}) {
+        if (branch == 1 ? known.hi < 0.5 : known.lo > 0.5) continue;
         const IrId value = node.operands[branch];
         std::optional<Box> part = reach({value, goal.above, goal.level}, box, depth + 1);
         if (part && !isBounded(*part) && !mayBeNaN[condition])

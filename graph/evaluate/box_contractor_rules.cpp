@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <tuple>
 
 #include "graph/evaluate/box_contractor.h"
@@ -51,12 +52,37 @@ struct TurnedTerm {
     bool isSine, isNegative;
 };
 
+/// The sine or cosine that a value is: the rotating nodes write mod(a, 180) == 0 ? 0 : sin(radians(a)), and
+/// the cosine likewise with a - 90, so that multiples of 90 degrees are exact.
+IrId exactTurn(const Ir& ir, IrId id) {
+    const IrNode& choice = ir[id];
+    if (choice.op != Op::select || !ir.isConstant(choice.operands[1], 0.0)) return id;
+    const IrNode &condition = ir[choice.operands[0]], &turn = ir[choice.operands[2]];
+    if (condition.op != Op::equal || (turn.op != Op::sine && turn.op != Op::cosine)) return id;
+    const bool zeroFirst = ir.isConstant(condition.operands[0], 0.0);
+    if (!zeroFirst && !ir.isConstant(condition.operands[1], 0.0)) return id;
+    const IrNode &remainder = ir[condition.operands[zeroFirst ? 1 : 0]], &radians = ir[turn.operands[0]];
+    if (remainder.op != Op::modulo || !ir.isConstant(remainder.operands[1], 180.0) ||
+        radians.op != Op::multiply)
+        return id;
+    IrId degrees = remainder.operands[0];
+    if (turn.op == Op::cosine) {
+        if (ir[degrees].op != Op::subtract || !ir.isConstant(ir[degrees].operands[1], 90.0)) return id;
+        degrees = ir[degrees].operands[0];
+    }
+    for (const std::size_t i : {0, 1})
+        if (radians.operands[i] == degrees && ir.isConstant(radians.operands[1 - i]) &&
+            std::abs(ir.number(radians.operands[1 - i]) - std::numbers::pi / 180.0) < 1e-15)
+            return choice.operands[2];
+    return id;
+}
+
 std::optional<TurnedTerm> turnedTerm(const Ir& ir, IrId id) {
     bool isNegative = false;
     while (ir[id].op == Op::negate) id = ir[id].operands[0], isNegative = !isNegative;
     if (ir[id].op != Op::multiply) return std::nullopt;
     for (const std::size_t i : {0, 1}) {
-        const IrNode& turn = ir[ir[id].operands[i]];
+        const IrNode& turn = ir[exactTurn(ir, ir[id].operands[i])];
         if (turn.op == Op::sine || turn.op == Op::cosine)
             return TurnedTerm{ir[id].operands[1 - i], turn.operands[0], turn.op == Op::sine, isNegative};
     }

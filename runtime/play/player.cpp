@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <future>
 #include <nlohmann/json.hpp>
-#include <thread>
 #include <utility>
 
 #include "graph/base/words.h"
@@ -147,6 +145,16 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
     if (context.stop.stop_requested()) return inGraph(prepared.graph, cancelledError());
     if (found.region.extent == Extent::bounded) {
         prepared.region = padded(found.region.box, resolution, 1.5);
+        if (found.unproven) {
+            Error note =
+                problem(prepared.graph,
+                        "the solid may leave its region between " + shortNumber(found.unproven->first) +
+                            " s and " + shortNumber(found.unproven->second) +
+                            " s, and be missing there: its bounds are known at single times only; give "
+                            "a region to be sure (--region)");
+            note.severity = Error::Severity::warning;
+            program.notes.push_back(std::move(note));
+        }
         return done();
     }
     if (found.region.extent == Extent::empty && !prepared.timeline.tracks.empty())

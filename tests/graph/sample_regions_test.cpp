@@ -56,7 +56,7 @@ TEST(Region, OfSamples) {
         ASSERT_TRUE(graph) << format(graph.error());
         const Result<Program> program = compile(*graph, {.bake = draftInPlace});
         ASSERT_TRUE(program) << format(program.error());
-        const Region region = findRegion(program->ir, program->distance(), program->parameters());
+        const Region region = findRegion(*program);
         ASSERT_EQ(region.extent, Extent::bounded);
         constexpr double kRounding = 1e-5;
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -309,7 +309,7 @@ TEST(Player, SaysWhatCannotBePlayed) {
     expectError(text, "not in the order of their times");
     expectError(R"({"fieldwright": 1, "nodes": [{"id": "a", "type": "plane"},
         {"id": "out", "type": "output", "inputs": {"surface": {"from": "a"}}}]})",
-                "no bounds");
+                "is unbounded");
     EXPECT_NE(format(Player::open("/nowhere/a.field.json").error()).find("there is no such file"),
               std::string::npos);
     EXPECT_NE(format(Player::open(sample("cube_morph"), {.device = "no such"}).error()).find("no such"),
