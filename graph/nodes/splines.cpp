@@ -114,8 +114,8 @@ bool ends = capped && !spline_closed(spline);
 return with_distance(swept, ends ? ext2(vec2(d, max(-at.z, at.z - spline_length(spline)))) : d);)",
          .lower = lowerSweep,
          .aliases = {"follow_path", "bend_along"}},
-        // A mean is never below the smaller one: that changes no value, but tells a search for bounds that the
-        // solid lies within both shapes together.
+        // A mean is never below the smaller one: that changes no value, but tells a search for bounds that
+        // the solid lies within both shapes together.
         {.id = "loft",
          .label = "Loft",
          .category = Category::spline,
