@@ -25,6 +25,11 @@ inline Box joined(const Box& a, const Box& b) {
     return box;
 }
 
+/// Enlarges `all`, which may be nothing yet, to contain the box too, if there is one.
+inline void joinInto(std::optional<Box>& all, const std::optional<Box>& box) {
+    if (box) all = all ? joined(*all, *box) : *box;
+}
+
 /// What both contain; nothing if they do not touch.
 inline std::optional<Box> common(const Box& a, const Box& b) {
     Box box;

@@ -60,6 +60,7 @@ inline constexpr double kFarthest = 65536.0;
 inline constexpr Box kAllSpace{{-kHuge, -kHuge, -kHuge}, {kHuge, kHuge, kHuge}};
 /// Whether no side of the box is at infinity.
 bool isBounded(const Box& box);
+inline Interval sideOf(const Box& box, std::size_t axis) { return {box.lo[axis], box.hi[axis]}; }
 
 class BoxContractor {
   public:
@@ -72,11 +73,11 @@ class BoxContractor {
         IrId root;  ///< the solid is where any part's root is <= 0
         Box box;    ///< contains the part
     };
-    /// The solid root <= 0 as parts, the operands of its outermost minimum; empty parts are left out. So an
-    /// empty list proves that there is no solid in `within`.
+    /// The solid root <= 0 as parts, the operands of its outermost minimum. Empty parts are omitted: an empty
+    /// list proves that `within` contains no solid.
     std::vector<Part> parts(IrId root, const Box& within = kAllSpace);
 
-    /// A box that contains all points of `box` where root <= level; nothing if there are none.
+    /// A box that contains all points of `box` where root <= level; nothing if no such point exists.
     std::optional<Box> contract(IrId root, double level, const Box& box);
 
     /// The same by all rules, also where fewer bound the box: it may be tighter, and takes some times as
@@ -98,6 +99,11 @@ class BoxContractor {
         IrId id;
         Interval range;
     };
+    /// The values that meet a goal.
+    static Interval wantedBy(bool above, double level) {
+        return above ? Interval{level, kHuge} : Interval{-kHuge, level};
+    }
+    static constexpr int kMaxDepth = 400;  ///< of nested goals
     /// What propagate() does about a box that stays unbounded.
     enum class Effort : unsigned char { quick, cases };
     /// A term of a sum.
@@ -122,7 +128,7 @@ class BoxContractor {
         Box box;  ///< of the spline
     };
 
-    /// A goal and what is known of it: a box around all points that meet it; nothing if there are none.
+    /// Goals that were bounded before, with their boxes; nothing where no point meets the goal.
     using KnownGoals = std::map<std::tuple<IrId, bool, double>, std::optional<Box>>;
     /// What expressions are read as functions of: the position, or values that stand between it and them.
     struct Frame {
@@ -136,7 +142,7 @@ class BoxContractor {
 
     std::optional<Box> repeat(const Goal& goal, const Box& box);
     void noteRanges(IrId root, const Box& box);
-    /// Of an operation within the box that contract() was given; of others over all of space.
+    /// The operation's interval over the box that contract() was given, or over all of space.
     Interval rangeOf(IrId id) const {
         return notedIn[id] == rangeGeneration && rangeGeneration > 0 ? noted[id] : everywhere[id];
     }

@@ -153,7 +153,7 @@ std::vector<std::vector<BoxContractor::Constraint>> BoxContractor::casesOf(IrId 
     }
 }
 
-/// Narrows everything below a minimum, a maximum or a choice to the hull of what is left in its cases.
+/// Narrows all operands of a minimum, a maximum or a choice to the hull of their intervals in its cases.
 bool BoxContractor::disjoin(IrId id) {
     const std::vector<std::vector<Constraint>> cases = casesOf(id);
     if (cases.empty() || stepCount > caseLimit) return true;

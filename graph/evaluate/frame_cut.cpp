@@ -51,7 +51,7 @@ class Flow {
         return true;
     }
 
-    /// Of a maximum flow: the vertices of the minimum cut that is next to the sink.
+    /// The vertices of the minimum cut next to the sink. Requires a maximum flow.
     std::vector<std::size_t> cut() const {
         std::vector<bool> reachesSink(firstArc.size());
         std::vector<int> pending{sink};

@@ -1,4 +1,4 @@
-// Frame cuts: the values that stand between an expression and what it is a function of.
+// Frame cuts: small vertex cuts between an expression and its variables.
 //
 // A field behind a twist, a bend or a turn reads the position only through three values, the coordinates that
 // the operation makes of it. In the graph of operations they are a vertex cut: every path from the root to
@@ -15,8 +15,8 @@
 namespace fw {
 
 /// At most three values of the cone, without its last one, through which all paths from the last one to the
-/// `variables` go; of several such cuts the one next to the variables. Empty if there is none. `cone`: ids,
-/// ascending, without variables and numbers; `isNumber`: values that depend on no variable.
+/// `variables` go; of several such cuts the one next to the variables. Empty if no such cut exists. `cone`:
+/// ids, ascending, without variables and numbers; `isNumber`: values that depend on no variable.
 std::vector<IrId> frameCut(const Ir& ir, std::span<const IrId> cone, std::span<const IrId> variables,
                            const std::function<bool(IrId)>& isNumber);
 

@@ -14,9 +14,9 @@ constexpr RefinementEffort kQuick{20'000, 120'000, 18, false}, kThorough{200'000
 constexpr std::size_t kSamples = 2048;
 constexpr double kCloseRatio = 1.35, kCloseSideRatio = 2.0;
 
-/// A tape is simplified if one in so many steps was decided.
+/// A tape is simplified if at least one step in kWorthSimplifying was decided.
 constexpr std::size_t kWorthSimplifying = 16;
-/// Of a part, to find how thick the empty slabs at its faces are: first whether there is one at all.
+/// Bisections of the thickness of the empty slabs at a part's faces: to detect a slab, and to measure it.
 /// A face is tight if it is closer to a point inside than this share of the hull's longest side.
 constexpr double kTight = 0.004;
 constexpr int kShaveHalvings = 7, kPreciseHalvings = 22;
@@ -103,7 +103,7 @@ bool HullRefinement::isCloseToSamples() {
         if (values[i] < 0.0)
             inner = inner ? joined(*inner, {points[i], points[i]}) : Box{points[i], points[i]};
     if (!inner) return false;
-    // The longest side decides how fine a grid of so many cells is.
+    // The longest side determines the size of the grid's cells.
     if (longestSide(hull()) > kCloseRatio * longestSide(*inner)) return false;
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (hull().hi[axis] - hull().lo[axis] > kCloseSideRatio * (inner->hi[axis] - inner->lo[axis]))
@@ -208,7 +208,10 @@ void HullRefinement::test(Cell cell) {
     if (kWorthSimplifying * machine.decidedSteps() > cell.tape->steps.size())
         cell.tape = std::make_shared<const Tape>(machine.shortenedForSigns(*cell.tape));
     if (jumps && machine.positiveInEachCase(*cell.tape, cell.box)) return;
-    if (isFarFromSurface(cell.box)) return;
+    if (std::isfinite(lipschitz)) {
+        pointSteps += wholeTape().steps.size();
+        if (isProvenOutside(machine, wholeTape(), cell.box, lipschitz)) return;
+    }
     if (isThorough) {
         const std::size_t before = contractor.steps();
         const std::optional<Box> box = contractor.contract(cell.part, 0.0, cell.box);
@@ -221,9 +224,8 @@ void HullRefinement::test(Cell cell) {
     cells.push_back(std::move(cell));
 }
 
-bool HullRefinement::isFarFromSurface(const Box& box) {
+bool isProvenOutside(TapeMachine<double>& machine, const Tape& tape, const Box& box, double lipschitz) {
     if (std::isinf(lipschitz)) return false;
-    const Tape& tape = wholeTape();
     Point centre;
     double squared = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -231,7 +233,6 @@ bool HullRefinement::isFarFromSurface(const Box& box) {
         squared += (box.hi[axis] - centre[axis]) * (box.hi[axis] - centre[axis]);
     }
     double value = 0.0;
-    pointSteps += tape.steps.size();
     machine.evaluate(tape, std::span(&centre, 1), std::span(&value, 1));
     return value > lipschitz * std::sqrt(squared) * (1.0 + 1e-9);
 }

@@ -4,7 +4,7 @@
 // cells that touch a face of the hull are halved across their longest side, and halves that an interval
 // proves empty are dropped. A face of the hull stays where it is as long as one cell there is left, so only
 // one cell a face is looked at; the others wait, and catch up on the rounds that they missed once that one is
-// gone. Each cell has a tape of its own, simplified for its box (tape.h). Cells that a discontinuity runs
+// gone. Each cell has a tape that is simplified for its box (tape.h). Cells that a discontinuity runs
 // through, as those between the copies of a repetition, are tested case by case (jump_cases.h).
 //
 // Deviation from a plain octree search: the hulls are those of an octree that is refined everywhere.
@@ -22,7 +22,11 @@
 
 namespace fw {
 
-/// What a search may cost.
+/// Whether the value at the box's centre proves that the field is positive in all of it. `lipschitz`: of the
+/// field; infinite if unknown.
+bool isProvenOutside(TapeMachine<double>& machine, const Tape& tape, const Box& box, double lipschitz);
+
+/// The limits of a search.
 struct RefinementEffort {
     std::size_t cells, steps;  ///< steps of tapes and of contractions
     int patience;              ///< rounds in a row without progress; three rounds halve the cells
@@ -61,7 +65,6 @@ class HullRefinement {
     void split(std::size_t number);
     void shave(Cell cell);
     void test(Cell cell);
-    bool isFarFromSurface(const Box& box);
     bool isCloseToSamples();
     const Tape& wholeTape();
     void enter(std::size_t face, std::size_t number);

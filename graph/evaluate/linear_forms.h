@@ -48,7 +48,7 @@ class LinearForms {
     void add(const Ir& ir, std::span<const IrId> ids, std::span<const Interval> values,
              const std::vector<bool>& isAtom);
 
-    /// Of an id that was added, or of a number.
+    /// Requires an id that was added.
     const LinearForm& operator[](IrId id) const { return forms[id]; }
 
   private:

@@ -21,7 +21,7 @@ inline bool intersect(Interval& a, Interval b) {
 }
 
 /// Narrows `operands` (as many as the operation has) to a superset of the values for which the operation's
-/// result lies in `result`. False if no operands give such a result. Operands and result are numbers: NaN is
+/// result is in `result`. False if no operands give such a result. Operands and result are numbers: NaN is
 /// not covered.
 bool projectOperands(Op op, Interval result, Interval* operands, const SampledLayer& layer);
 

@@ -11,6 +11,9 @@ namespace fw {
 
 namespace {
 
+constexpr double kPartShellRatio = 4.0;  // of a shell's outer and inner size
+constexpr double kSmallestPartShell = 1.0 / 1024.0;
+constexpr int kMaxPartSplits = 24;
 constexpr std::size_t kPartSteps = 4'000'000;  // of operations on intervals, for one part
 constexpr std::size_t kContractionSteps = 8'000'000;
 
@@ -30,14 +33,14 @@ class ShellSearch {
         std::optional<Box> outer = common(box, cubeAround(kFarthest));
         if (!outer) return {Extent::empty, {}, {}};
         if (reachesTo(*outer)) return {Extent::unbounded, {}, *outer};
-        for (double size = kFarthest / kShellRatio; size > kSmallestShell; size /= kShellRatio) {
+        for (double size = kFarthest / kPartShellRatio; size > kSmallestPartShell; size /= kPartShellRatio) {
             const std::optional<Box> inner = common(*outer, cubeAround(size));
             if (inner == outer) continue;
             const std::size_t limit = contractor.steps() + pointSteps + kPartSteps;
             std::optional<Box> left;
             for (const Box& slab : boxesAround(*outer, inner))
-                if (!isEmpty(part, slab, limit, kMaxShellSplits, left)) break;
-            if (left && size == kFarthest / kShellRatio) return {Extent::unproven, *outer, *left};
+                if (!isEmpty(part, slab, limit, kMaxPartSplits, left)) break;
+            if (left && size == kFarthest / kPartShellRatio) return {Extent::unproven, *outer, *left};
             if (left) return {Extent::bounded, *outer, {}};
             if (!inner) return {Extent::empty, {}, {}};
             outer = contractor.contract(part, 0.0, *inner);
@@ -55,7 +58,7 @@ class ShellSearch {
         for (Point& point : points) {
             for (std::size_t axis = 0; axis < 3; ++axis)
                 point[axis] = std::lerp(box.lo[axis], box.hi[axis], unit(random));
-            // One axis at least, along which the box is long, lies in its outer half.
+            // At least one coordinate of an unbounded side is in its outer half.
             for (std::size_t axis = random() % 3, tries = 0; tries < 3; axis = (axis + 1) % 3, ++tries)
                 if (std::max(-box.lo[axis], box.hi[axis]) >= kFarthest) {
                     const double sign =
@@ -71,7 +74,8 @@ class ShellSearch {
 
     /// Proves that the part has nothing within the box; else `left` is a box where it may have something.
     bool isEmpty(IrId part, const Box& whole, std::size_t limit, int splits, std::optional<Box>& left) {
-        if (isFarFromSurface(whole)) return true;
+        pointSteps += tape.steps.size();
+        if (isProvenOutside(machine, tape, whole, lipschitz)) return true;
         const std::optional<Box> box = contractor.contract(part, 0.0, whole);
         if (!box) return true;
         if (splits == 0 || contractor.steps() + pointSteps > limit || stop.stop_requested()) {
@@ -81,20 +85,6 @@ class ShellSearch {
         for (const Box& half : halvesOf(*box))
             if (!isEmpty(part, half, limit, splits - 1, left)) return false;
         return true;
-    }
-
-    bool isFarFromSurface(const Box& box) {
-        if (std::isinf(lipschitz)) return false;
-        Point centre;
-        double squared = 0.0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            centre[axis] = 0.5 * (box.lo[axis] + box.hi[axis]);
-            squared += (box.hi[axis] - centre[axis]) * (box.hi[axis] - centre[axis]);
-        }
-        double value = 0.0;
-        pointSteps += tape.steps.size();
-        machine.evaluate(tape, std::span(&centre, 1), std::span(&value, 1));
-        return value > lipschitz * std::sqrt(squared) * (1.0 + 1e-9);
     }
 
     IrId root;

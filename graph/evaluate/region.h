@@ -30,8 +30,7 @@ enum class Extent : unsigned char {
 
 struct Region {
     Extent extent = Extent::bounded;
-    /// Contains the solid if it is bounded; not padded. Of an unproven one: contains all of the solid but for
-    /// what lies in `unproven`.
+    /// Contains the solid if `extent` is bounded; not padded.
     Box box;
     Box unproven;  ///< where nothing is proven, within kFarthest
 };
