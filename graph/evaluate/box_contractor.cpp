@@ -15,6 +15,13 @@ constexpr std::size_t kMaxReplacements = 4;
 /// Steps that the cases within one cone may cost.
 constexpr std::size_t kCaseSteps = 5'000, kCaseStepsEach = 40;
 
+/// Numbers beyond kHuge are somewhere near that end: intervals have no larger ones.
+Interval rangeOfConstant(double number) {
+    if (number >= kHuge) return {0.1 * kHuge, kHuge};
+    if (number <= -kHuge) return {-kHuge, -0.1 * kHuge};
+    return {number, number};
+}
+
 }  // namespace
 
 bool isBounded(const Box& box) {
@@ -39,7 +46,7 @@ BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters
         else if (node.op == Op::parameter)
             current[id] = parameters[std::size_t(node.number)];
         else if (node.op == Op::constant)
-            current[id] = {node.number, node.number};
+            current[id] = rangeOfConstant(node.number);
         else
             current[id] = evaluate(id);
         if (!std::isfinite(current[id].lo) || !std::isfinite(current[id].hi)) current[id] = kEverything;
@@ -158,8 +165,11 @@ std::optional<Box> BoxContractor::propagate(std::vector<Constraint> constraints,
     const std::vector<IrId> cone = coneOf(constraints);
     setVariables(box);
     forwards(cone, false);
-    for (const Constraint& constraint : constraints)
-        if (!intersect(current[constraint.id], constraint.range)) return std::nullopt;
+    for (const Constraint& constraint : constraints) {
+        Interval range = current[constraint.id];
+        if (!intersect(range, constraint.range)) return std::nullopt;
+        if (!isNumber(constraint.id)) current[constraint.id] = range;
+    }
     if (!narrow(cone, replacements, kMaxRounds)) return std::nullopt;
     if (!isBounded(variableBox()) && effort == Effort::cases) {
         caseDepth = kMaxCaseDepth;
@@ -191,7 +201,9 @@ std::vector<BoxContractor::Piece> BoxContractor::piecesOfUnbounded(
         return std::ranges::find(replacements, id, &Replacement::first) != replacements.end();
     };
     const auto formOf = [&](IrId id) {
-        if (isNumber(id)) return LinearForm{.terms = {}, .constant = everywhere[id].lo};
+        if (isNumber(id) && everywhere[id].isPoint())
+            return LinearForm{.terms = {}, .constant = everywhere[id].lo};
+        if (isNumber(id)) return LinearForm{.terms = {{id, 1.0}}, .constant = 0.0};
         if (isVariable(id)) return LinearForm{.terms = {{id, 1.0}}, .constant = 0.0};
         return substitute(frame.forms[id], replacements);
     };

@@ -117,12 +117,14 @@ std::optional<Box> BoxContractor::reachLeaf(const Goal& goal, const Box& box, in
 }
 
 /// A chain of smooth minima of width k is at most k below the sharp minimum of all: were it lower than a - k
-/// for the next operand a, it would not blend with it. One of them is at most k / 4 below.
+/// for the next operand a, it would not blend with it. One of them is at most k / 4 below, and a tree of
+/// depth d at most d k / 4.
 std::optional<Box> BoxContractor::reachAny(const Goal& goal, const Box& box, int depth) {
     struct Operand {
         IrId id;
         double level;
         double chainStart, chainWidth;  // of the smooth minima that it is nested in
+        bool isChain = true;            // one operand at least of each of them is not one itself
     };
     std::optional<Box> all;
     std::vector<Operand> pending{{goal.id, goal.level, goal.level, 0.0}};
@@ -138,10 +140,13 @@ std::optional<Box> BoxContractor::reachAny(const Goal& goal, const Box& box, int
         Operand next = at;
         if (node.op == Op::smoothMinimum) {
             next.chainWidth = std::max(at.chainWidth, rangeOf(node.operands[2]).hi);
-            next.level = std::min(roundedUp(at.level + 0.25 * rangeOf(node.operands[2]).hi),
-                                  roundedUp(at.chainStart + next.chainWidth));
+            const double width = std::max(0.0, rangeOf(node.operands[2]).hi);
+            next.level = roundedUp(at.level + 0.25 * width);
+            next.isChain = at.isChain && (opOf(node.operands[0]) != Op::smoothMinimum ||
+                                          opOf(node.operands[1]) != Op::smoothMinimum);
+            if (next.isChain) next.level = std::min(next.level, roundedUp(at.chainStart + next.chainWidth));
         } else {
-            next.chainStart = at.level, next.chainWidth = 0.0;
+            next.chainStart = at.level, next.chainWidth = 0.0, next.isChain = true;
         }
         for (const std::size_t i : {1, 0}) next.id = node.operands[i], pending.push_back(next);
     }

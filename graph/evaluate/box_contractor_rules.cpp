@@ -306,7 +306,9 @@ bool BoxContractor::solveLinear(std::span<const IrId> cone, std::span<const Repl
     for (const auto& [id, form] : replacements)
         if (isBounded(current[id])) rows.push_back(form), bounds.push_back(current[id]);
     for (const IrId atom : solveForUnbounded(rows, bounds, current)) {
-        if (current[atom].lo > current[atom].hi) return false;
+        const bool isEmpty = current[atom].lo > current[atom].hi;
+        if (isNumber(atom)) current[atom] = everywhere[atom];
+        if (isEmpty) return false;
         narrowed = true;
     }
     return true;
@@ -335,6 +337,10 @@ void BoxContractor::findUndefined() {
             case Op::positionX:
             case Op::positionY:
             case Op::positionZ: break;
+            case Op::constant:
+                isFlat[id] = true;
+                mayBeNaN[id] = !std::isfinite(node.number);
+                break;
             case Op::negate:
             case Op::absolute:
             case Op::square:

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMaxRows = 24, kMaxColumns = 12;
 constexpr double kSmallestPivot = 1e-5;  ///< of rows scaled to a largest factor of 1
-constexpr double kZeroFactor = 1e-11, kFormSlack = 1e-9;
+constexpr double kZeroFactor = 1e-13, kFormSlack = 1e-9;
 
 struct Row {
     std::array<double, kMaxColumns> factors{};   ///< of the unbounded atoms
@@ -63,6 +63,8 @@ void LinearForms::add(const Ir& ir, std::span<const IrId> ids, std::span<const I
     const auto isNumber = [&](IrId id) { return values[id].isPoint() && ir[id].positions == 0; };
     const auto formOf = [&](IrId id) {
         if (id < 3 || isAtom[id]) return LinearForm{.terms = {{id, 1.0}}, .constant = 0.0};
+        if (ir[id].positions == 0 && !values[id].isPoint())
+            return LinearForm{.terms = {{id, 1.0}}, .constant = 0.0};
         return isNumber(id) ? LinearForm{.terms = {}, .constant = values[id].lo} : forms[id];
     };
     for (const IrId id : ids) {

@@ -14,8 +14,9 @@ constexpr double kSlack = 1e-12;           // relative error allowed for element
 double up(double value) { return value + std::abs(value) * kSlack; }
 double down(double value) { return value - std::abs(value) * kSlack; }
 
-Interval atMost(double value) { return {-kHuge, std::min(value, kHuge)}; }
-Interval atLeast(double value) { return {std::max(value, -kHuge), kHuge}; }
+/// Values beyond kHuge count as somewhat less, so that neither interval is empty.
+Interval atMost(double value) { return {-kHuge, std::clamp(value, -0.1 * kHuge, kHuge)}; }
+Interval atLeast(double value) { return {std::clamp(value, -kHuge, 0.1 * kHuge), kHuge}; }
 
 /// All x with x * factor in `product` for some factor in `b`.
 bool quotients(Interval product, Interval b, Interval& x) {
