@@ -9,10 +9,11 @@ namespace fw {
 
 namespace {
 
-/// The second if the first leaves the hull much larger than what samples show of the solid.
-constexpr RefinementEffort kQuick{20'000, 120'000, 18, false}, kThorough{200'000, 12'000'000, 18, true};
+/// Further ones follow where the hull stays larger than what samples show of the solid.
+constexpr RefinementEffort kQuick{20'000, 120'000, 18, false}, kMany{100'000, 3'000'000, 18, false},
+    kMedium{50'000, 1'000'000, 18, true}, kThorough{200'000, 12'000'000, 18, true};
 constexpr std::size_t kSamples = 2048;
-constexpr double kCloseRatio = 1.35, kCloseSideRatio = 2.0;
+constexpr double kCloseRatio = 1.15, kFairRatio = 1.35, kFairSideRatio = 2.0;
 
 /// A tape is simplified if at least one step in kWorthSimplifying was decided.
 constexpr std::size_t kWorthSimplifying = 16;
@@ -43,19 +44,32 @@ std::optional<Box> HullRefinement::refine(std::span<const BoxContractor::Part> p
     cellCount = 0;
     start(parts);
     if (!refine(kQuick)) return std::nullopt;
-    if (isSettled || isCloseToSamples()) return hull();
-    const Box found = hull();
-    std::vector<BoxContractor::Part> tight;
-    for (const BoxContractor::Part& part : parts) {
-        const std::optional<Box> within = common(part.box, found);
-        const std::optional<Box> box =
-            within ? contractor.contractThoroughly(part.root, 0.0, *within) : std::nullopt;
-        if (box) tight.push_back({part.root, *box});
+    Box found = hull();
+    if (isSettled || isCloseToSamples(kCloseRatio, kFairSideRatio)) return found;
+    // The Lipschitz constant makes cells cheap to test; without it, contracting them pays.
+    if (std::isfinite(lipschitz)) {
+        if (!refine(kMany)) return std::nullopt;
+        found = hull();
+        if (isSettled || isCloseToSamples(kFairRatio, kFairSideRatio)) return found;
     }
-    if (tight.empty()) return std::nullopt;
-    start(tight);
-    if (!refine(kThorough)) return std::nullopt;
-    return common(hull(), found);
+    for (const RefinementEffort& effort : {kMedium, kThorough}) {
+        std::vector<BoxContractor::Part> tight;
+        for (const BoxContractor::Part& part : parts) {
+            const std::optional<Box> within = common(part.box, found);
+            const std::optional<Box> box =
+                within ? contractor.contractThoroughly(part.root, 0.0, *within) : std::nullopt;
+            if (box) tight.push_back({part.root, *box});
+        }
+        if (tight.empty()) return std::nullopt;
+        start(tight);
+        if (!refine(effort)) return std::nullopt;
+        const std::optional<Box> smaller = common(hull(), found);
+        if (!smaller) return std::nullopt;
+        found = *smaller;
+        hulls.back() = found;
+        if (isSettled || isCloseToSamples(kFairRatio, kFairSideRatio)) break;
+    }
+    return found;
 }
 
 void HullRefinement::start(std::span<const BoxContractor::Part> parts) {
@@ -89,7 +103,7 @@ bool HullRefinement::refine(const RefinementEffort& effort) {
 }
 
 /// Whether points inside the solid are known close to all faces of the hull.
-bool HullRefinement::isCloseToSamples() {
+bool HullRefinement::isCloseToSamples(double ratio, double sideRatio) {
     std::mt19937 random(1);
     std::vector<Point> points(kSamples);
     std::vector<double> values(kSamples);
@@ -104,10 +118,9 @@ bool HullRefinement::isCloseToSamples() {
             inner = inner ? joined(*inner, {points[i], points[i]}) : Box{points[i], points[i]};
     if (!inner) return false;
     // The longest side determines the size of the grid's cells.
-    if (longestSide(hull()) > kCloseRatio * longestSide(*inner)) return false;
+    if (longestSide(hull()) > ratio * longestSide(*inner)) return false;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        if (hull().hi[axis] - hull().lo[axis] > kCloseSideRatio * (inner->hi[axis] - inner->lo[axis]))
-            return false;
+        if (hull().hi[axis] - hull().lo[axis] > sideRatio * (inner->hi[axis] - inner->lo[axis])) return false;
     return true;
 }
 

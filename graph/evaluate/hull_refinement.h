@@ -65,7 +65,7 @@ class HullRefinement {
     void split(std::size_t number);
     void shave(Cell cell);
     void test(Cell cell);
-    bool isCloseToSamples();
+    bool isCloseToSamples(double ratio, double sideRatio);
     const Tape& wholeTape();
     void enter(std::size_t face, std::size_t number);
     bool canSplit() const { return cellCount + 2 <= maxCells && steps() < maxSteps; }

@@ -14,8 +14,8 @@ namespace {
 constexpr double kPartShellRatio = 4.0;  // of a shell's outer and inner size
 constexpr double kSmallestPartShell = 1.0 / 1024.0;
 constexpr int kMaxPartSplits = 24;
-constexpr std::size_t kPartSteps = 4'000'000;  // of operations on intervals, for one part
-constexpr std::size_t kContractionSteps = 8'000'000;
+constexpr std::size_t kPartSteps = 1'000'000;  // of operations on intervals, for one part
+constexpr std::size_t kContractionSteps = 4'000'000;
 
 /// Bounds a part that the contractor alone does not bound.
 class ShellSearch {

@@ -269,7 +269,8 @@ TEST(Preview, ASolidWithoutBoundsIsAFinding) {
     const PreviewResult result = previewed.settled();
     EXPECT_FALSE(result.current);
     ASSERT_FALSE(result.findings.empty());
-    EXPECT_NE(result.findings[0].message.find("bounds"), std::string::npos) << result.findings[0].message;
+    EXPECT_NE(result.findings[0].message.find("is unbounded"), std::string::npos)
+        << result.findings[0].message;
 }
 
 TEST(Preview, WhatIsHeldMovesAndBuildsNoPipeline) {

@@ -336,7 +336,7 @@ TEST(BoxContractorProperty, HoldsRandomGraphs) {
     }
 }
 
-TEST(BoxContractorProperty, DISABLED_HoldsRandomSolids) {
+TEST(BoxContractorProperty, HoldsRandomSolids) {
     Source source{std::mt19937_64(9)};
     int failures = 0, refused = 0;
     const int count = isLong() ? 8000 : 500;
@@ -423,7 +423,7 @@ void expectSoundCode(const std::string& code, Interval time = {0.25, 0.25}) {
     expectSound(fieldOf(code, time), source, 6, 1000);
 }
 
-TEST(BoxContractor, DISABLED_TurnsSolidsThatAParameterMoves) {
+TEST(BoxContractor, TurnsSolidsThatAParameterMoves) {
     expectSoundCode(
         "x = p.x - time; return max(abs(0.8 * x + 0.6 * p.y), max(abs(0.8 * p.y - 0.6 * x), abs(p.z))) - 1;",
         {0.0, 10.0});
@@ -434,16 +434,16 @@ TEST(BoxContractor, ReplacesMinimaOfParameters) {
         "abs(p.z) + abs(p.x))) - 9;",
         {0.0, 10.0});
 }
-TEST(BoxContractor, DISABLED_KeepsParametersFromOneOperandToTheNext) {
+TEST(BoxContractor, KeepsParametersFromOneOperandToTheNext) {
     expectSoundCode(
         "return min(max(time, length(p) - 0.1), max(abs(p.x - time), max(abs(p.y), abs(p.z))) - 1);",
         {-0.5, 3.0});
 }
-TEST(BoxContractor, DISABLED_BlendsOfNegativeWidthAreSharp) {
+TEST(BoxContractor, BlendsOfNegativeWidthAreSharp) {
     expectSoundCode("return smooth_min(length(p) - 1, length(p - vec3(5, 0, 0)) - 1, -2);");
     expectSoundCode("return smooth_min(length(p) - 1, length(p - vec3(5, 0, 0)) - 1, time);", {-3.0, -2.0});
 }
-TEST(BoxContractor, DISABLED_BlendsOfBlends) {
+TEST(BoxContractor, BlendsOfBlends) {
     // A balanced tree of smooth minima of equal operands is lower than a chain of them.
     std::vector<std::string> terms;
     for (int i = 0; i < 64; ++i)
@@ -456,11 +456,11 @@ TEST(BoxContractor, DISABLED_BlendsOfBlends) {
     }
     expectSoundCode("return " + terms[0] + ";");
 }
-TEST(BoxContractor, DISABLED_NearlyParallelCoordinates) {
+TEST(BoxContractor, NearlyParallelCoordinates) {
     expectSoundCode("return max(abs(p.x + 0.000000000008 * p.y), abs(p.z)) - 1;");
 }
 
-TEST(BoxContractor, DISABLED_ConstantsBeyondTheLargestEnd) {
+TEST(BoxContractor, ConstantsBeyondTheLargestEnd) {
     for (const char* code : {
              "return 0.5 * min(1e38, length(p) - 1) + 0.1 * sin(p.x);",
              "return abs(min(1e38, length(p) - 1) + p.x) - 2;",

@@ -309,9 +309,7 @@ TEST(SplineTable, PositionsThatAreNaNGiveNaN) {
     const SplineTablePtr table = splineTable(through(randomKnots(random, 7, true), SplineKind::smooth), 0);
     for (int channel = 0; channel < kSplineChannels; ++channel) {
         const SplineSample sample = sampleSpline(*table, SplineChannel(channel), glm::dvec3(NAN, 0, 0));
-        if (SplineChannel(channel) == SplineChannel::distance) {
-            EXPECT_TRUE(std::isnan(sample.value));
-        }
+        if (SplineChannel(channel) == SplineChannel::distance) { EXPECT_TRUE(std::isnan(sample.value)); }
     }
 }
 

@@ -141,7 +141,8 @@ TEST(CommandInput, CodeWithoutEnd) {
     expectBadGraph(code("return p.x" + repeated(" + p.x", 1'000'000) + ";"), {"code 1:", "200000"});
     expectBadGraph(code("return " + repeated("(", 100'000) + "1;"), {"code 1:", "nested deeper"});
     // Long but allowed; the region search still ends soon.
-    expectBadGraph(code("d = p.x; " + repeated("d = sin(d) + cos(d);", 15'000) + "return d;"), {"no bounds"});
+    expectBadGraph(code("d = p.x; " + repeated("d = sin(d) + cos(d);", 15'000) + "return d;"),
+                   {"cannot be proven bounded"});
     expectBadGraph(code("d = p.x; for (int i = 0; i < 1000000; i++) d = sin(d + i); return d;"),
                    {"code 1:", "operations"});
 }

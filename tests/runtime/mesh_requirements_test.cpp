@@ -205,7 +205,8 @@ TEST(MeshRequirements, TheCommandFailsWithTheReasonAndKeepsTheFile) {
     EXPECT_NE(missed.errors.find("ball.stl: not error=0.0001: a point of"), std::string::npos);
     EXPECT_EQ(missed.errors.find("not closed"), std::string::npos);
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"ball.field.json", "ball.stl"}));
-    expectRefusal(required("clsed"), 2, {"--require", "\"clsed\" is no requirement", "closed complete manifold"});
+    expectRefusal(required("clsed"), 2,
+                  {"--require", "\"clsed\" is no requirement", "closed complete manifold"});
 }
 
 }  // namespace fw::mesh_requirements_test

@@ -438,7 +438,8 @@ RandomScene sceneOf(uint32_t seed, bool moving) {
             all = id;
             continue;
         }
-        // No morph: nobody fades between solids that stand metres apart; solidPart() fades those at one place.
+        // No morph: nobody fades between solids that stand metres apart; solidPart() fades those at one
+        // place.
         const double kind = random.between(0, 1);
         const char* type = kind < 0.75   ? "union"
                            : kind < 0.85 ? "subtract"
