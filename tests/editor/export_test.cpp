@@ -193,7 +193,7 @@ TEST(Export, SaysWhyItCannotBeDone) {
     refused(ball, folder.path("a.xyz"), "unknown format");
     refused(ball, folder.path("none/a.stl"), "cannot create a file");
     refused(ball, file, "nosuchdevice", {.pick = "nosuchdevice"});
-    refused(parse(R"({"id": "a", "type": "plane"})" + out), file, "no bounds");
+    refused(parse(R"({"id": "a", "type": "plane"})" + out), file, "is unbounded");
     refused(parse(R"({"id": "a", "type": "sphere", "inputs": {"radius": "x"}})" + out), file, "radius");
     Graph itself = *ball;
     itself.path = file;
