@@ -92,6 +92,8 @@ std::vector<BoxContractor::Part> BoxContractor::parts(IrId root, const Box& with
         } else if (node.op == Op::multiply && isNumber(node.operands[1]) &&
                    everywhere[node.operands[1]].lo > 0.0) {
             pending.push_back(node.operands[0]);
+        } else if (everywhere[id].lo >= 0.0) {
+            continue;  // a solid is where its field is below 0
         } else if (const std::optional<Box> box = contract(id, 0.0, within)) {
             result.push_back({id, *box});
         }

@@ -14,7 +14,7 @@ namespace {
 constexpr double kPartShellRatio = 4.0;  // of a shell's outer and inner size
 constexpr double kSmallestPartShell = 1.0 / 1024.0;
 constexpr int kMaxPartSplits = 24;
-constexpr std::size_t kPartSteps = 1'000'000;  // of operations on intervals, for one part
+constexpr std::size_t kPartSteps = 300'000;  // of operations on intervals, for one part
 constexpr std::size_t kContractionSteps = 4'000'000;
 
 /// A solid is an open set: a box without thickness holds none.
@@ -62,7 +62,7 @@ class ShellSearch {
     bool reachesTo(const Box& box) {
         std::mt19937 random(1);
         std::uniform_real_distribution<double> unit(0.0, 1.0);
-        std::vector<Point> points(4096);
+        std::vector<Point> points(1024);
         for (Point& point : points) {
             for (std::size_t axis = 0; axis < 3; ++axis)
                 point[axis] = std::lerp(box.lo[axis], box.hi[axis], unit(random));

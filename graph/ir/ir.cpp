@@ -170,6 +170,10 @@ IrId Ir::simplify(Op op, std::span<const IrId> operands) {
             const Op dual = op == Op::minimum ? Op::maximum : Op::minimum;
             for (int i : {0, 1}) {
                 const IrId other = operands[1 - i];
+                if (made(i, Op::negate) && inner(i, 0) == other) {
+                    const IrId size = add(Op::absolute, other);
+                    return op == Op::maximum ? size : add(Op::negate, size);
+                }
                 if (made(i, dual) && (inner(i, 0) == other || inner(i, 1) == other)) return other;
                 if (made(i, op) && (inner(i, 0) == other || inner(i, 1) == other)) return operands[i];
             }
