@@ -91,9 +91,8 @@ std::optional<Box> levelBounds(const Ir& ir, IrId distance, double level) {
     Apart field = apartFrom(ir, distance);
     const IrId grown = field.ir.add(Op::subtract, field.root, field.ir.constant(level));
     const Region region = searchSolid(field.ir, grown, {});
-    if (region.extent == Extent::unbounded) return std::nullopt;
     if (region.extent == Extent::empty) return Box{{1, 1, 1}, {-1, -1, -1}};
-    return region.box;
+    return region.extent == Extent::bounded ? std::optional(region.box) : std::nullopt;
 }
 
 bool isMirrored(const Ir& ir, IrId root, int axis) {
@@ -118,8 +117,8 @@ Box sampledBounds(const Ir& ir, IrId distance, std::span<const double> parameter
     constexpr double kWide = 64.0;  // metres
     const Apart field = apartFrom(ir, distance);
     const Region region = searchSolid(field.ir, field.root, parameters);
-    return region.extent == Extent::unbounded ? Box{{-kWide, -kWide, -kWide}, {kWide, kWide, kWide}}
-                                              : region.box;
+    const bool isFound = region.extent == Extent::bounded || region.extent == Extent::empty;
+    return isFound ? region.box : cubeAround(kWide);
 }
 
 std::vector<Point> pointsOfSolid(const Ir& ir, IrId distance, std::span<const double> parameters,
