@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -44,6 +45,20 @@ inline std::optional<Box> common(const Box& a, const Box& b) {
 /// The box's longest side; 0 if none has a length.
 inline double longestSide(const Box& box) {
     return std::max({0.0, box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]});
+}
+
+/// Whether some side has no length, but for rounding.
+inline bool isFlat(const Box& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (box.hi[axis] - box.lo[axis] <= 1e-12 * std::max(std::abs(box.lo[axis]), std::abs(box.hi[axis])))
+            return true;
+    return false;
+}
+
+inline Point centreOf(const Box& box) {
+    Point centre;
+    for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] = 0.5 * (box.lo[axis] + box.hi[axis]);
+    return centre;
 }
 
 /// The cube around the origin with sides of 2 `size`.

@@ -62,25 +62,17 @@ class MotionProof {
 
     void split(BoxContractor& contractor, const Box& box, int halvings) {
         const std::optional<Box> rest = contractor.contract(live.program.distance(), 0.0, box);
+        // A solid is an open set: a box without thickness holds none.
         if (!rest || isFlat(*rest) || (hull && joined(*hull, *rest) == *hull)) return;
         if (!isBounded(*rest)) {
             isBoundedBetween = false;
             return;
         }
         if (halvings == 0 || stop.stop_requested() || contractor.steps() >= stepsLeft) {
-            hull = hull ? joined(*hull, *rest) : *rest;
+            joinInto(hull, rest);
             return;
         }
         for (const Box& half : halvesOf(*rest)) split(contractor, half, halvings - 1);
-    }
-
-    /// Without thickness a box holds no solid, which is an open set.
-    static bool isFlat(const Box& box) {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            if (box.hi[axis] - box.lo[axis] <=
-                1e-12 * std::max(std::abs(box.lo[axis]), std::abs(box.hi[axis])))
-                return true;
-        return false;
     }
 
     void take(const BoxContractor& contractor) { stepsLeft -= std::min(stepsLeft, contractor.steps()); }
@@ -113,7 +105,7 @@ MovingRegion findMovingRegion(const LiveProgram& live, std::stop_token stop) {
     }
     std::optional<Box> hull;
     for (std::size_t i = 0; i < times.size(); ++i) {
-        if (found[i].extent == Extent::bounded) hull = hull ? joined(*hull, found[i].box) : found[i].box;
+        if (found[i].extent == Extent::bounded) joinInto(hull, found[i].box);
         if (found[i].extent != Extent::bounded && found[i].extent != Extent::empty)
             return {found[i], times[i], {}};
     }

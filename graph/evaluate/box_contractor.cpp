@@ -32,7 +32,7 @@ bool isBounded(const Box& box) {
 
 BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters)
     : ir(ir_),
-      everywhere(ir.size()),
+      current(ir.size()),
       mayBeNaN(ir.size()),
       stamps(ir.size()),
       evaluatedIn(ir.size()),
@@ -40,7 +40,6 @@ BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters
       notedIn(ir.size()) {
     for (IrId id = 0; id < ir.size(); ++id) {
         const IrNode& node = ir[id];
-        current.swap(everywhere);
         if (id < 3 || node.op == Op::column)
             current[id] = kEverything;
         else if (node.op == Op::parameter)
@@ -50,9 +49,8 @@ BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters
         else
             current[id] = evaluate(id);
         if (!std::isfinite(current[id].lo) || !std::isfinite(current[id].hi)) current[id] = kEverything;
-        current.swap(everywhere);
     }
-    current = everywhere;
+    everywhere = current;
     frame.isAtom.resize(ir.size());
     findUndefined();
     findRotations();

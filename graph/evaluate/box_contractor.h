@@ -18,11 +18,10 @@
 // * The coordinates beside a spline bound the distance to it.
 // * Systems of linear combinations are solved for their unbounded terms (linear_forms.h): so turned solids
 //   are bounded.
-// * Where all this leaves the box unbounded, minima, maxima and choices within an expression are tried case
-// by
-//   case, and every value gets the hull of its intervals in the cases (constructive disjunction). Terms of
-//   linear combinations that are piecewise linear, as |x|, are replaced by each of their pieces: so mirrored
-//   solids are bounded.
+// * Where all this leaves the box unbounded, minima, maxima and choices within an expression are tried
+//   case by case, and every value gets the hull of its intervals in the cases (constructive disjunction).
+//   Terms of linear combinations that are piecewise linear, as |x|, are replaced by each of their pieces: so
+//   mirrored solids are bounded.
 // * Where three values stand between a part of the expression and the position, as the coordinates of a moved
 //   solid do (frame_cut.h), that part is bounded in their space first; then the three are.
 // * What is still unbounded is proven empty from kFarthest inwards, shell by shell: so solids of polynomials

@@ -37,7 +37,7 @@ Box boxOf(const Spline& spline) {
             Box box;
             for (std::size_t axis = 0; axis < 3; ++axis)
                 box.lo[axis] = end[int(axis)] - sagitta, box.hi[axis] = end[int(axis)] + sagitta;
-            all = all ? joined(*all, box) : box;
+            joinInto(all, box);
         }
     }
     return all.value_or(Box{});
@@ -96,15 +96,9 @@ bool BoxContractor::forwards(std::span<const IrId> cone, bool narrow) {
     if (!narrow) ++evaluation;
     for (const IrId id : cone) {
         evaluatedIn[id] = evaluation;
-        const IrNode& node = ir[id];
-        Interval operands[kMaxArity];
-        const OpInfo& info = opInfo(node.op);
-        for (int i = 0; i < info.arity; ++i) operands[i] = current[node.operands[std::size_t(i)]];
-        const Interval value =
-            info.interval(operands, samplesLayer(node.op) ? ir.layer(node) : SampledLayer{});
         if (!narrow)
-            current[id] = value;
-        else if (!intersect(current[id], value))
+            current[id] = evaluate(id);
+        else if (!intersect(current[id], evaluate(id)))
             return false;
     }
     return true;

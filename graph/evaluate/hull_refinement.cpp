@@ -17,9 +17,9 @@ constexpr double kCloseRatio = 1.15, kFairRatio = 1.35, kFairSideRatio = 2.0;
 
 /// A tape is simplified if at least one step in kWorthSimplifying was decided.
 constexpr std::size_t kWorthSimplifying = 16;
-/// Bisections of the thickness of the empty slabs at a part's faces: to detect a slab, and to measure it.
 /// A face is tight if it is closer to a point inside than this share of the hull's longest side.
 constexpr double kTight = 0.004;
+/// Bisections of the thickness of the empty slabs at a part's faces: to detect a slab, and to measure it.
 constexpr int kShaveHalvings = 7, kPreciseHalvings = 22;
 
 /// The hull may shrink if the cell is split.
@@ -114,8 +114,7 @@ bool HullRefinement::isCloseToSamples(double ratio, double sideRatio) {
     machine.evaluate(wholeTape(), points, values);
     std::optional<Box> inner;
     for (std::size_t i = 0; i < points.size(); ++i)
-        if (values[i] < 0.0)
-            inner = inner ? joined(*inner, {points[i], points[i]}) : Box{points[i], points[i]};
+        if (values[i] < 0.0) joinInto(inner, Box{points[i], points[i]});
     if (!inner) return false;
     // The longest side determines the size of the grid's cells.
     if (longestSide(hull()) > ratio * longestSide(*inner)) return false;
@@ -162,9 +161,7 @@ std::optional<double> HullRefinement::settle(std::size_t face) {
 bool HullRefinement::isTight(std::size_t axis, Cell& cell) {
     if (!cell.tape || cell.box.hi[axis] - cell.box.lo[axis] > kTight * longestSide(hull())) return false;
     if (cell.centre == Cell::Centre::unknown) {
-        Point centre;
-        for (std::size_t other = 0; other < 3; ++other)
-            centre[other] = 0.5 * (cell.box.lo[other] + cell.box.hi[other]);
+        const Point centre = centreOf(cell.box);
         double value = 0.0;
         pointSteps += cell.tape->steps.size();
         machine.evaluate(*cell.tape, std::span(&centre, 1), std::span(&value, 1));
@@ -239,12 +236,10 @@ void HullRefinement::test(Cell cell) {
 
 bool isProvenOutside(TapeMachine<double>& machine, const Tape& tape, const Box& box, double lipschitz) {
     if (std::isinf(lipschitz)) return false;
-    Point centre;
+    const Point centre = centreOf(box);
     double squared = 0.0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        centre[axis] = 0.5 * (box.lo[axis] + box.hi[axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
         squared += (box.hi[axis] - centre[axis]) * (box.hi[axis] - centre[axis]);
-    }
     double value = 0.0;
     machine.evaluate(tape, std::span(&centre, 1), std::span(&value, 1));
     return value > lipschitz * std::sqrt(squared) * (1.0 + 1e-9);

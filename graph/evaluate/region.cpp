@@ -17,14 +17,6 @@ constexpr int kMaxPartSplits = 24;
 constexpr std::size_t kPartSteps = 300'000;  // of operations on intervals, for one part
 constexpr std::size_t kContractionSteps = 4'000'000;
 
-/// A solid is an open set: a box without thickness holds none.
-bool hasNoVolume(const Box& box) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (box.hi[axis] - box.lo[axis] <= 1e-12 * std::max(std::abs(box.lo[axis]), std::abs(box.hi[axis])))
-            return true;
-    return false;
-}
-
 /// Bounds a part that the contractor alone does not bound.
 class ShellSearch {
   public:
@@ -128,7 +120,8 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
             parts[i++].box = region.box;
         }
     }
-    std::erase_if(parts, [](const BoxContractor::Part& part) { return hasNoVolume(part.box); });
+    // A solid is an open set: a box without thickness holds none.
+    std::erase_if(parts, [](const BoxContractor::Part& part) { return isFlat(part.box); });
     if (parts.empty()) return {Extent::empty, {}, {}};
     HullRefinement refinement(ir, distance, parameters, lipschitz, contractor);
     const std::optional<Box> box = refinement.refine(parts);

@@ -46,16 +46,6 @@ class SampleSequence {
     uint64_t state = 0x9e3779b97f4a7c15u;
 };
 
-double longestSideOf(const Box& box) {
-    return std::max({box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]});
-}
-
-Point centreOf(const Box& box) {
-    Point centre;
-    for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] = 0.5 * (box.lo[axis] + box.hi[axis]);
-    return centre;
-}
-
 /// The box grown by `margin` on every side, within the cube of size kFarthest.
 Box grownBox(const Box& box, double margin) {
     Box grown;
@@ -134,7 +124,7 @@ class ExteriorSearch {
           cancel(cancel_),
           budget(budget_),
           centre(centreOf(region)),
-          size(std::max(longestSideOf(region), 1e-9)) {
+          size(std::max(longestSide(region), 1e-9)) {
         result.region = region;
     }
 
@@ -394,7 +384,7 @@ class ExteriorSearch {
         double rank = INFINITY;
         for (const double value : valuesAt(*by, points))
             if (value < rank) rank = value;
-        cells.push({rank / longestSideOf(box), box, std::move(by)});
+        cells.push({rank / longestSide(box), box, std::move(by)});
     }
 
     const Ir& ir;

@@ -32,7 +32,7 @@ struct Field {
 };
 
 /// Evaluates by the operations' reference meanings. NaN where an intermediate value is too large or too small
-/// for its rounding to be of no matter.
+/// for the comparison to hold in spite of rounding.
 double valueAt(const Field& field, IrId root, std::span<const double> parameters, const Point& point) {
     static std::vector<double> values;
     values.resize(root + 1);

@@ -62,8 +62,8 @@ struct Source {
     }
 };
 
-/// How often operands are cut off whose exact result may lie in the interval. `least` is the smallest width
-/// by which the result interval contains the value; below it, rounding decides.
+/// How often operands are cut off although the interval may contain their exact result. `least` is the
+/// smallest width by which the result interval contains the value; below it, rounding decides.
 void expectKeepsOperands(const OpInfo& info, const SampledLayer& layer, int rounds) {
     Source source{std::mt19937_64(uint64_t(info.op) + 77)};
     int tried = 0, failed = 0;

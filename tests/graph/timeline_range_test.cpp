@@ -1,4 +1,4 @@
-// Property test of rangeBetween(): a track's values between two times lie in the range.
+// Property test of rangeBetween(): the range contains a track's values between two times.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
