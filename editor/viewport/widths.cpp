@@ -7,8 +7,8 @@
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
 #include "editor/viewport/ground.h"
+#include "graph/bounds/region.h"
 #include "graph/document/unit.h"
-#include "graph/evaluate/region.h"
 #include "runtime/render/view.h"
 
 namespace fw::editor {

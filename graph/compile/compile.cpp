@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "graph/base/words.h"
+#include "graph/bounds/region.h"
 #include "graph/compile/effort.h"
 #include "graph/compile/graph_lowering.h"
 #include "graph/document/named_parameters.h"
-#include "graph/evaluate/region.h"
 #include "graph/ir/affine_sums.h"
 #include "graph/rules/structure.h"
 

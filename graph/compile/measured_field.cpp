@@ -13,8 +13,8 @@
 #include "graph/assets/mesh_field.h"
 #include "graph/base/hash.h"
 #include "graph/base/parallel.h"
+#include "graph/bounds/region.h"
 #include "graph/compile/unbounded_node.h"
-#include "graph/evaluate/region.h"
 
 namespace fw {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "graph/evaluate/box_contractor.h"
+#include "graph/bounds/box_contractor.h"
 
 namespace fw {
 

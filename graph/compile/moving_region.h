@@ -14,8 +14,8 @@
 #include <stop_token>
 #include <utility>
 
+#include "graph/bounds/region.h"
 #include "graph/compile/live_program.h"
-#include "graph/evaluate/region.h"
 
 namespace fw {
 

@@ -8,8 +8,8 @@
 
 #include "graph/assets/volume.h"
 #include "graph/base/hash.h"
+#include "graph/bounds/region.h"
 #include "graph/compile/compile.h"
-#include "graph/evaluate/region.h"
 
 namespace fw {
 

@@ -4,10 +4,10 @@
 #include <glm/geometric.hpp>
 
 #include "graph/base/words.h"
+#include "graph/bounds/region.h"
 #include "graph/compile/cached_particles.h"
 #include "graph/compile/graph_lowering.h"
 #include "graph/compile/particle_recipe.h"
-#include "graph/evaluate/region.h"
 
 namespace fw {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "graph/base/result.h"
+#include "graph/bounds/region.h"
 #include "graph/compile/mesh_recipe.h"
-#include "graph/evaluate/region.h"
 #include "graph/ir/families.h"
 #include "graph/ir/ir.h"
 #include "graph/library/types.h"

@@ -203,7 +203,7 @@ const HalfSpace* overfull(const GraphLowering& lowering, const std::vector<NodeI
         return nullptr;
     const Ir& ir = lowering.state.ir;
     const IrId surface = inputOf(inputs, "surface").ids[distanceComponent];
-    const Box bounds = sampledBounds(ir, surface, liveValues(lowering));
+    const Box bounds = solidBounds(ir, surface, liveValues(lowering));
     std::optional<bool> jumps;
     for (const HalfSpace& side : cell.sides) {
         const std::vector<Point> points = pointsBeyond(lowering, surface, bounds, side.normal, side.offset);
@@ -286,7 +286,7 @@ Lowered lowerScatter(GraphLowering& lowering, const NodeAt& at) {
         const ScatterCell cell = scatterCell(constantsOf(lowering, inputs));
         if (!cell.known) return;
         const IrId surface = inputOf(inputs, "surface").ids[distanceComponent];
-        const Box bounds = sampledBounds(lowering.state.ir, surface, liveValues(lowering));
+        const Box bounds = solidBounds(lowering.state.ir, surface, liveValues(lowering));
         for (int axis = 0; axis < 3; ++axis) {
             const double clear = cell.clear[std::size_t(axis)];
             if (clear <= 0.0) continue;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "graph/bounds/region.h"
 #include "graph/compile/graph_lowering.h"
 #include "graph/evaluate/evaluate.h"
-#include "graph/evaluate/region.h"
 
 namespace fw {
 
@@ -113,7 +113,7 @@ bool isMirrored(const Ir& ir, IrId root, int axis) {
     return parities[root] == Parity::even;
 }
 
-Box sampledBounds(const Ir& ir, IrId distance, std::span<const double> parameters) {
+Box solidBounds(const Ir& ir, IrId distance, std::span<const double> parameters) {
     constexpr double kWide = 64.0;  // metres
     const Apart field = apartFrom(ir, distance);
     const Region region = searchSolid(field.ir, field.root, parameters);

@@ -1,6 +1,6 @@
 // Questions about the solid of a field that exactness rules ask: where it lies, and whether it is symmetric.
 //
-// The answers are proofs: "yes" holds for every point of space within kFarthest (evaluate/region.h), "no"
+// The answers are proofs: "yes" holds for every point of space within kFarthest (bounds/region.h), "no"
 // means only that no proof was found. A field with live parameters or particles has no proof, for its solid
 // moves.
 //
@@ -32,6 +32,6 @@ bool isMirrored(const Ir& ir, IrId root, int axis);
 std::vector<Point> pointsOfSolid(const Ir& ir, IrId distance, std::span<const double> parameters,
                                  const Box& within);
 /// The bounds of the solid; of one without any a cube around the origin.
-Box sampledBounds(const Ir& ir, IrId distance, std::span<const double> parameters);
+Box solidBounds(const Ir& ir, IrId distance, std::span<const double> parameters);
 
 }  // namespace fw

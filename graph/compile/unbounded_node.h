@@ -13,8 +13,8 @@
 #include <stop_token>
 #include <string>
 
+#include "graph/bounds/region.h"
 #include "graph/document/graph.h"
-#include "graph/evaluate/region.h"
 
 namespace fw {
 

@@ -1,7 +1,7 @@
 // Completeness: whether the meshed region holds all of a solid.
 //
 // The check looks for solid outside the region. It shares no code with the search that finds regions
-// (graph/evaluate/region.h, box_contractor.h, hull_refinement.h), so that an error there does not hide here.
+// (graph/bounds/region.h, box_contractor.h, hull_refinement.h), so that an error there does not hide here.
 // It evaluates the field at points and on boxes, and nothing else:
 //
 // 1. Intervals over the six slabs around the region. Ordinary solids are proven complete by these.

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "graph/bounds/region.h"
 #include "graph/compile/compile.h"
-#include "graph/evaluate/region.h"
 #include "runtime/particles/simulation.h"
 
 namespace fw {

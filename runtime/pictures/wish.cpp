@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "graph/bounds/region.h"
 #include "graph/document/unit.h"
-#include "graph/evaluate/region.h"
 #include "graph/language/typed_number.h"
 #include "runtime/render/light_picture.h"
 #include "runtime/render/renderer.h"

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "graph/base/words.h"
+#include "graph/bounds/region.h"
 #include "graph/check/check.h"
 #include "graph/compile/moving_region.h"
 #include "graph/document/json.h"
 #include "graph/document/named_parameters.h"
-#include "graph/evaluate/region.h"
 
 namespace fw {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "graph/bounds/region.h"
 #include "graph/compile/effort.h"
 #include "graph/compile/unbounded_node.h"
 #include "graph/document/timeline.h"
 #include "graph/emit/glsl.h"
-#include "graph/evaluate/region.h"
 #include "runtime/measure/field_measure.h"
 #include "runtime/mesh/creases.h"
 #include "runtime/mesh/materials.h"

@@ -3,9 +3,9 @@
 #include <random>
 
 #include "editor/viewport/pick.h"
+#include "graph/bounds/region.h"
 #include "graph/document/json.h"
 #include "graph/evaluate/evaluate.h"
-#include "graph/evaluate/region.h"
 #include "runtime/mesher/host.h"
 #include "tests/bench/tables.h"
 

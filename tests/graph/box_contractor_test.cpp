@@ -1,5 +1,5 @@
 // Property tests of BoxContractor and frameCut() against sampled points, which share no code with them.
-#include "graph/evaluate/box_contractor.h"
+#include "graph/bounds/box_contractor.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "graph/evaluate/frame_cut.h"
+#include "graph/bounds/frame_cut.h"
 #include "graph/language/lower.h"
 #include "tests/support/graph/random_code.h"
 #include "tests/support/graph/random_graph.h"

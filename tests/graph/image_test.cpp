@@ -8,10 +8,10 @@
 #include <random>
 
 #include "graph/assets/environment.h"
+#include "graph/bounds/region.h"
 #include "graph/check/check.h"
 #include "graph/compile/compile.h"
 #include "graph/document/json.h"
-#include "graph/evaluate/region.h"
 #include "tests/support/graph/picture_file.h"
 #include "tests/support/graph/temp_dir.h"
 

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <random>
 
+#include "graph/bounds/region.h"
 #include "graph/compile/compile.h"
 #include "graph/document/json.h"
-#include "graph/evaluate/region.h"
 
 namespace fw::node_region_test {
 

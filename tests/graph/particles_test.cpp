@@ -7,11 +7,11 @@
 #include <random>
 
 #include "graph/base/words.h"
+#include "graph/bounds/region.h"
 #include "graph/check/check.h"
 #include "graph/compile/compile.h"
 #include "graph/compile/particle_recipe.h"
 #include "graph/document/json.h"
-#include "graph/evaluate/region.h"
 #include "tests/support/graph/volume_intervals.h"
 
 namespace fw::particles_test {

@@ -1,5 +1,5 @@
 // Property test of projectOperands(): operands that give a result in the interval are never cut off.
-#include "graph/evaluate/projections.h"
+#include "graph/bounds/projections.h"
 
 #include <gtest/gtest.h>
 

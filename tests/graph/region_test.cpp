@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "graph/evaluate/region.h"
+#include "graph/bounds/region.h"
 #include "graph/language/lower.h"
 
 namespace fw::region_test {

@@ -1,9 +1,9 @@
 // The regions that the samples have: found as close to their solids as they were.
 #include <gtest/gtest.h>
 
+#include "graph/bounds/region.h"
 #include "graph/compile/compile.h"
 #include "graph/document/json.h"
-#include "graph/evaluate/region.h"
 
 namespace fw::sample_regions_test {
 

@@ -7,10 +7,10 @@
 #include <random>
 #include <sstream>
 
+#include "graph/bounds/region.h"
 #include "graph/check/check.h"
 #include "graph/compile/compile.h"
 #include "graph/document/json.h"
-#include "graph/evaluate/region.h"
 
 namespace fw::samples_test {
 

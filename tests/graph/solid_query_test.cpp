@@ -6,7 +6,7 @@
 #include <array>
 #include <string>
 
-#include "graph/evaluate/region.h"
+#include "graph/bounds/region.h"
 #include "graph/language/lower.h"
 
 namespace fw::solid_query_test {
@@ -44,7 +44,7 @@ TEST(SolidQuery, BoundsThatAreNotProven) {
     const Field field = fieldOf("return sphere(p * sin(p.yzx), 1);");
     ASSERT_EQ(findRegion(field.ir, field.distance, {}).extent, Extent::unproven);
     EXPECT_FALSE(levelBounds(field.ir, field.distance, 0.0));
-    EXPECT_EQ(sampledBounds(field.ir, field.distance, {}), cubeAround(64.0));
+    EXPECT_EQ(solidBounds(field.ir, field.distance, {}), cubeAround(64.0));
 }
 
 }  // namespace fw::solid_query_test

@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "graph/bounds/region.h"
 #include "graph/compile/compile.h"
 #include "graph/document/json.h"
 #include "graph/evaluate/evaluate.h"
-#include "graph/evaluate/region.h"
 #include "graph/language/lower.h"
 #include "runtime/measure/mesh_requirements.h"
 #include "tests/support/command.h"

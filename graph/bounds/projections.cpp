@@ -1,4 +1,4 @@
-#include "graph/evaluate/projections.h"
+#include "graph/bounds/projections.h"
 
 #include <cmath>
 #include <numbers>

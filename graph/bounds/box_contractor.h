@@ -45,8 +45,8 @@
 #include <vector>
 
 #include "graph/base/box.h"
-#include "graph/evaluate/linear_forms.h"
-#include "graph/evaluate/projections.h"
+#include "graph/bounds/linear_forms.h"
+#include "graph/bounds/projections.h"
 #include "graph/ir/ir.h"
 
 namespace fw {

@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-#include "graph/evaluate/box_contractor.h"
+#include "graph/bounds/box_contractor.h"
 #include "graph/evaluate/interval_gradient.h"
 #include "graph/evaluate/tape.h"
 

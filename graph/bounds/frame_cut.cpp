@@ -1,4 +1,4 @@
-#include "graph/evaluate/frame_cut.h"
+#include "graph/bounds/frame_cut.h"
 
 #include <algorithm>
 

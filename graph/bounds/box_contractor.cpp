@@ -1,4 +1,4 @@
-#include "graph/evaluate/box_contractor.h"
+#include "graph/bounds/box_contractor.h"
 
 #include <algorithm>
 #include <cmath>

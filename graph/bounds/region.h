@@ -16,7 +16,7 @@
 #include <stop_token>
 
 #include "graph/base/result.h"
-#include "graph/evaluate/box_contractor.h"
+#include "graph/bounds/box_contractor.h"
 #include "graph/evaluate/evaluate.h"
 
 namespace fw {

@@ -1,4 +1,4 @@
-#include "graph/evaluate/hull_refinement.h"
+#include "graph/bounds/hull_refinement.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "graph/evaluate/region.h"
+#include "graph/bounds/region.h"
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "graph/evaluate/box_contractor.h"
-#include "graph/evaluate/hull_refinement.h"
+#include "graph/bounds/box_contractor.h"
+#include "graph/bounds/hull_refinement.h"
 
 namespace fw {
 

@@ -5,8 +5,8 @@
 #include <random>
 #include <utility>
 
-#include "graph/evaluate/box_contractor.h"
-#include "graph/evaluate/frame_cut.h"
+#include "graph/bounds/box_contractor.h"
+#include "graph/bounds/frame_cut.h"
 
 namespace fw {
 

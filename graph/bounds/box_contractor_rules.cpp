@@ -5,7 +5,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "graph/evaluate/box_contractor.h"
+#include "graph/bounds/box_contractor.h"
 
 namespace fw {
 

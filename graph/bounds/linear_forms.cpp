@@ -1,4 +1,4 @@
-#include "graph/evaluate/linear_forms.h"
+#include "graph/bounds/linear_forms.h"
 
 #include <algorithm>
 #include <array>

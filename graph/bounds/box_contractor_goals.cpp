@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "graph/evaluate/box_contractor.h"
+#include "graph/bounds/box_contractor.h"
 
 namespace fw {
 
