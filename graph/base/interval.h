@@ -14,8 +14,8 @@
 
 namespace fw {
 
-/// Magnitude that stands for "unbounded"; the shaders' intervals use the same.
-inline constexpr double kHuge = 1e30;
+/// Magnitude that stands for "unbounded". The intervals of shaders, in float, have 1e30.
+inline constexpr double kHuge = 1e100;
 
 struct Interval {
     double lo = 0.0, hi = 0.0;

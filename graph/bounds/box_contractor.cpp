@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace fw {
 
@@ -51,13 +52,14 @@ BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters
         if (!std::isfinite(current[id].lo) || !std::isfinite(current[id].hi)) current[id] = kEverything;
     }
     everywhere = current;
-    frame.isAtom.resize(ir.size());
+    frame->isAtom.resize(ir.size());
     findUndefined();
     findRotations();
     findSplines();
 }
 
 Interval BoxContractor::evaluate(IrId id) const {
+    if (const LinearForm* form = derivedForm(id)) return rangeOver(*form, current);
     const IrNode& node = ir[id];
     Interval operands[kMaxArity];
     const OpInfo& info = opInfo(node.op);
@@ -67,15 +69,16 @@ Interval BoxContractor::evaluate(IrId id) const {
 
 Box BoxContractor::variableBox() const {
     Box box;
-    for (std::size_t axis = 0; axis < frame.count; ++axis) {
-        box.lo[axis] = current[frame.variables[axis]].lo;
-        box.hi[axis] = current[frame.variables[axis]].hi;
+    for (std::size_t axis = 0; axis < frame->count; ++axis) {
+        box.lo[axis] = current[frame->variables[axis]].lo;
+        box.hi[axis] = current[frame->variables[axis]].hi;
     }
     return box;
 }
 
 void BoxContractor::setVariables(const Box& box) {
-    for (std::size_t axis = 0; axis < frame.count; ++axis) current[frame.variables[axis]] = sideOf(box, axis);
+    for (std::size_t axis = 0; axis < frame->count; ++axis)
+        current[frame->variables[axis]] = sideOf(box, axis);
 }
 
 std::vector<BoxContractor::Part> BoxContractor::parts(IrId root, const Box& within) {
@@ -107,9 +110,21 @@ std::optional<Box> BoxContractor::contract(IrId root, double level, const Box& b
 }
 
 std::optional<Box> BoxContractor::contractThoroughly(IrId root, double level, const Box& box) {
-    isThorough = true;
-    const std::optional<Box> left = reach({root, false, level}, box, 0);
-    isThorough = false;
+    return contractBy(Rules::thorough, {root, false, level}, box);
+}
+
+std::optional<Box> BoxContractor::contractExhaustively(IrId root, double level, const Box& box,
+                                                       std::size_t steps) {
+    const std::size_t limit = std::exchange(stepLimit, std::min(stepLimit, stepCount + steps));
+    const std::optional<Box> left = contractBy(Rules::all, {root, false, level}, box);
+    stepLimit = limit;
+    return left && isBounded(*left) ? repeat({root, false, level}, *left) : left;
+}
+
+std::optional<Box> BoxContractor::contractBy(Rules wanted, const Goal& goal, const Box& box) {
+    rules = wanted;
+    const std::optional<Box> left = reach(goal, box, 0);
+    rules = Rules::simple;
     return left;
 }
 
@@ -153,10 +168,23 @@ std::vector<IrId> BoxContractor::coneOf(std::span<const Constraint> constraints)
         const IrId id = pending.back();
         pending.pop_back();
         cone.push_back(id);
+        if (derivedForm(id)) continue;
         for (int i = 0; i < opInfo(ir[id].op).arity; ++i) visit(ir[id].operands[std::size_t(i)]);
     }
     std::ranges::sort(cone);
     return cone;
+}
+
+std::vector<IrId> BoxContractor::dependenciesOf(IrId id) const {
+    std::vector<IrId> values;
+    if (const LinearForm* form = derivedForm(id)) {
+        for (const LinearForm::Term& term : form->terms) values.push_back(term.atom);
+        return values;
+    }
+    for (int i = 0; i < opInfo(ir[id].op).arity; ++i)
+        if (const IrId operand = ir[id].operands[std::size_t(i)]; isVariable(operand) || !isNumber(operand))
+            values.push_back(operand);
+    return values;
 }
 
 std::optional<Box> BoxContractor::propagate(std::vector<Constraint> constraints, const Box& box, int depth,
@@ -205,7 +233,7 @@ std::vector<BoxContractor::Piece> BoxContractor::piecesOfUnbounded(
             return LinearForm{.terms = {}, .constant = everywhere[id].lo};
         if (isNumber(id)) return LinearForm{.terms = {{id, 1.0}}, .constant = 0.0};
         if (isVariable(id)) return LinearForm{.terms = {{id, 1.0}}, .constant = 0.0};
-        return substitute(frame.forms[id], replacements);
+        return substitute(frame->forms[id], replacements);
     };
     const auto piece = [](Constraint constraint, Replacement replacement) {
         Piece made{.constraints = {}, .replacements = {std::move(replacement)}};
@@ -213,13 +241,13 @@ std::vector<BoxContractor::Piece> BoxContractor::piecesOfUnbounded(
         return made;
     };
     for (const IrId row : cone) {
-        if (frame.forms[row].terms.size() < 2 || !isBounded(current[row])) continue;
-        for (const LinearForm::Term& term : frame.forms[row].terms) {
+        if (frame->forms[row].terms.size() < 2 || !isBounded(current[row])) continue;
+        for (const LinearForm::Term& term : frame->forms[row].terms) {
             const IrId id = term.atom;
             if (isVariable(id) || isBounded(current[id]) || isReplaced(id)) continue;
             const IrNode& node = ir[id];
             const IrId a = node.operands[0], b = node.operands[1], c = node.operands[2];
-            switch (node.op) {
+            switch (opOf(id)) {
                 case Op::absolute:
                     return {piece({a, {0.0, kHuge}}, {id, formOf(a)}),
                             piece({a, {-kHuge, 0.0}}, {id, sum({}, formOf(a), -1.0)})};
@@ -231,7 +259,7 @@ std::vector<BoxContractor::Piece> BoxContractor::piecesOfUnbounded(
                     Piece taken = piece({isKnown ? a : 0, {1.0, 1.0}}, {id, formOf(b)}),
                           other = piece({isKnown ? a : 0, {0.0, 0.0}}, {id, formOf(c)});
                     for (const IrId same : cone) {
-                        if (same == id || ir[same].op != Op::select || ir[same].operands[0] != a ||
+                        if (same == id || opOf(same) != Op::select || ir[same].operands[0] != a ||
                             isReplaced(same))
                             continue;
                         taken.replacements.push_back({same, formOf(ir[same].operands[1])});

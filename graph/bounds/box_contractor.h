@@ -45,6 +45,7 @@
 #include <vector>
 
 #include "graph/base/box.h"
+#include "graph/bounds/frame_cut.h"
 #include "graph/bounds/linear_forms.h"
 #include "graph/bounds/projections.h"
 #include "graph/ir/ir.h"
@@ -66,6 +67,8 @@ class BoxContractor {
     /// `parameters`: intervals of the live parameters' values, in their slots. A result holds for all values
     /// in them.
     BoxContractor(const Ir& ir, std::span<const Interval> parameters);
+    BoxContractor(const BoxContractor&) = delete;
+    BoxContractor& operator=(const BoxContractor&) = delete;
 
     /// The part of a solid that one operand of a union makes.
     struct Part {
@@ -82,6 +85,8 @@ class BoxContractor {
     /// The same by all rules, also where fewer bound the box: it may be tighter, and takes some times as
     /// long.
     std::optional<Box> contractThoroughly(IrId root, double level, const Box& box);
+    /// The same, with cuts of cuts and blends of any form, within `steps` more steps.
+    std::optional<Box> contractExhaustively(IrId root, double level, const Box& box, std::size_t steps);
 
     /// Operations evaluated on intervals so far, forwards and backwards. Once there are more than `limit`
     /// contract() returns the box that it was given, which is right but of no use.
@@ -103,6 +108,8 @@ class BoxContractor {
         return above ? Interval{level, kHuge} : Interval{-kHuge, level};
     }
     static constexpr int kMaxDepth = 400;  ///< of nested goals
+    /// simple: goals are taken apart. thorough: one cut and shells, too. all: cuts of cuts, of all kinds.
+    enum class Rules : unsigned char { simple, thorough, all };
     /// What propagate() does about a box that stays unbounded.
     enum class Effort : unsigned char { quick, cases };
     /// A term of a sum.
@@ -128,15 +135,23 @@ class BoxContractor {
     };
 
     /// Goals that were bounded before, with their boxes; nothing where no point meets the goal.
-    using KnownGoals = std::map<std::tuple<IrId, bool, double>, std::optional<Box>>;
+    using KnownGoals = std::map<std::tuple<IrId, bool, double, Rules>, std::optional<Box>>;
     /// What expressions are read as functions of: the position, or values that stand between it and them.
     struct Frame {
         std::array<IrId, 3> variables{0, 1, 2};
         std::size_t count = 3;               ///< of variables
         Box limits = cubeAround(kFarthest);  ///< where searches over space look
+        /// Values that are evaluated as linear forms of the variables, in place of their operations.
+        std::map<IrId, LinearForm> derived = {};
         LinearForms forms = {};
         std::vector<bool> isAtom = {};  ///< of linear forms
         KnownGoals throughCuts = {}, fromOutside = {};
+    };
+
+    /// Values that may become the variables of a frame. Empty: there are none.
+    struct Cut {
+        std::vector<IrId> values;
+        std::map<IrId, LinearForm> derived = {};  ///< Frame
     };
 
     std::optional<Box> repeat(const Goal& goal, const Box& box);
@@ -148,14 +163,26 @@ class BoxContractor {
     void trim(const Goal& goal, Box& box, int depth);
     std::optional<Box> reach(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachTakenApart(const Goal& goal, const Box& box, int depth);
-    std::optional<Box> reachThroughCut(const Goal& goal, const Box& box, int depth);
-    std::optional<Box> boundThroughCut(const Goal& goal, int depth);
+    std::optional<Box> reachThroughCuts(const Goal& goal, const Box& box, int depth);
+    std::optional<Box> boundThroughOneCut(const Goal& goal, int depth);
+    std::optional<Box> boundThroughCuts(const Goal& goal, int depth);
+    std::optional<Box> contractBy(Rules wanted, const Goal& goal, const Box& box);
+    std::optional<Box> boundInSpaceOf(const Cut& cut, const Goal& goal, int depth);
+    std::optional<Box> boundByOperands(const Cut& cut, const Goal& goal, int depth);
+    Frame& frameOf(const Cut& cut);
+    Cut linearCut(const Goal& goal);
+    Cut vertexCut(const Goal& goal, std::span<const IrId> some, CutSide side);
+    void deriveLinear(const Goal& goal);
+    std::span<const IrId> variables() const { return std::span(frame->variables).first(frame->count); }
+    bool isFunctionOfVariables(IrId id);
+    /// Of the variables over all of space.
+    Box rangesOfVariables() const;
     std::optional<Box> reachAny(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachAll(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachSelected(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachLeaf(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachFromOutside(const Goal& goal, const Box& box, int depth);
-    bool isSeenFarAway(const Goal& goal, const Box& box);
+    bool isSeenFarAway(const Goal& goal, const Box& box, int samples);
     bool isUnreachable(const Goal& goal, const Box& box, int splits, int depth);
     std::optional<Box> reachCondition(IrId id, bool truth, const Box& box, int depth);
     std::optional<Box> reachSum(const Goal& goal, const Box& box, int depth);
@@ -197,12 +224,17 @@ class BoxContractor {
     std::vector<IrId> coneOf(std::span<const Constraint> constraints);
     Interval evaluate(IrId id) const;
     bool isNumber(IrId id) const { return ir[id].positions == 0; }
-    bool isVariable(IrId id) const {
-        const auto end = frame.variables.begin() + std::ptrdiff_t(frame.count);
-        return std::find(frame.variables.begin(), end, id) != end;
+    bool isVariable(IrId id) const { return std::ranges::find(variables(), id) != variables().end(); }
+    /// The operation that an id is taken for: none (Op::count) of variables and linear forms of them.
+    Op opOf(IrId id) const { return isVariable(id) || derivedForm(id) ? Op::count : ir[id].op; }
+    const LinearForm* derivedForm(IrId id) const {
+        if (frame->derived.empty()) return nullptr;
+        const auto found = frame->derived.find(id);
+        return found == frame->derived.end() ? nullptr : &found->second;
     }
-    /// The operation that an id is taken for: none (Op::count) of a variable.
-    Op opOf(IrId id) const { return isVariable(id) ? Op::count : ir[id].op; }
+    /// The values that a value of the cone is computed from: variables, and others of the cone.
+    std::vector<IrId> dependenciesOf(IrId id) const;
+    bool projectDerived(IrId id, const LinearForm& form);
     /// The current intervals of the variables; sides beyond their number are a point.
     Box variableBox() const;
     void setVariables(const Box& box);
@@ -221,11 +253,12 @@ class BoxContractor {
     std::vector<Interval> noted;    ///< of operations, over the box that noteRanges() was given
     std::vector<uint32_t> notedIn;  ///< when that was
     uint32_t rangeGeneration = 0;
-    Frame frame;
+    std::map<std::vector<IrId>, Frame> frames;  ///< by their variables; of no variables: by the position
+    Frame* frame = &frames[{}];
     std::unordered_multimap<IrId, Rotation> rotations;  ///< by the smaller of p and q
     std::unordered_map<IrId, SplineUse> splines;        ///< by the smallest id of its channels
     int caseDepth = 0;                                  ///< of nested cases that backwards() may go through
-    bool isThorough = false;                            ///< in reach(): cuts and shells are tried
+    Rules rules = Rules::simple;                        ///< of reach()
     std::size_t shellLimit = 0;                         ///< of stepCount, for the shells at hand
     std::size_t caseLimit = 0;                          ///< of stepCount, after which no more cases are tried
     std::size_t stepCount = 0, stepLimit = SIZE_MAX;

@@ -18,7 +18,7 @@ double roundedDown(double value) { return value - std::abs(value) * 1e-15; }
 }  // namespace
 
 BoxContractor::Goal BoxContractor::peeled(Goal goal) const {
-    while (!isVariable(goal.id)) {
+    while (opOf(goal.id) != Op::count) {
         const IrNode& node = ir[goal.id];
         const IrId a = node.operands[0], b = node.operands[1];
         const bool firstIsNumber = opInfo(node.op).arity == 2 && isNumber(a),
@@ -68,9 +68,10 @@ std::optional<Box> BoxContractor::reach(const Goal& whole, const Box& box, int d
     if (goal.above ? range.hi < goal.level : range.lo > goal.level) return std::nullopt;
     if (goal.above ? range.lo >= goal.level : range.hi <= goal.level) return box;
     if (std::abs(goal.level) >= kHuge) return box;
-    if (!isThorough) return reachTakenApart(goal, box, depth);
-    const std::optional<Box> left = reachThroughCut(goal, box, depth);
-    return left ? reachTakenApart(goal, *left, depth) : left;
+    if (rules == Rules::simple) return reachTakenApart(goal, box, depth);
+    const std::optional<Box> left = reachThroughCuts(goal, box, depth);
+    const bool isEnough = rules == Rules::all && left && isBounded(*left);
+    return left && !isEnough ? reachTakenApart(goal, *left, depth) : left;
 }
 
 std::optional<Box> BoxContractor::reachTakenApart(const Goal& goal, const Box& box, int depth) {
@@ -113,7 +114,7 @@ std::optional<Box> BoxContractor::reachLeaf(const Goal& goal, const Box& box, in
         op == Op::add || op == Op::subtract
             ? reachSum(goal, box, depth)
             : propagate({{goal.id, wantedBy(goal.above, goal.level)}}, box, depth + 1);
-    return left && !isBounded(*left) && isThorough ? reachFromOutside(goal, *left, depth) : left;
+    return left && !isBounded(*left) && rules != Rules::simple ? reachFromOutside(goal, *left, depth) : left;
 }
 
 /// A chain of smooth minima of width k is at most k below the sharp minimum of all: were it lower than a - k

@@ -119,7 +119,7 @@ std::vector<std::vector<BoxContractor::Constraint>> BoxContractor::casesOf(IrId 
     const IrId a = node.operands[0], b = node.operands[1], c = node.operands[2];
     const Interval range = current[id];
     std::vector<std::vector<Constraint>> cases;
-    switch (node.op) {
+    switch (opOf(id)) {
         case Op::minimum:
         case Op::smoothMinimum: {
             const double blend = node.op == Op::minimum ? 0.0 : 0.25 * std::max(current[c].hi, 0.0);
@@ -155,8 +155,8 @@ bool BoxContractor::disjoin(IrId id) {
     std::vector<Constraint> all;
     for (const auto& constraints : cases) all.insert(all.end(), constraints.begin(), constraints.end());
     std::vector<IrId> values = coneOf(all);
-    values.insert(values.begin(), frame.variables.begin(),
-                  frame.variables.begin() + std::ptrdiff_t(frame.count));
+    values.insert(values.begin(), frame->variables.begin(),
+                  frame->variables.begin() + std::ptrdiff_t(frame->count));
     std::vector<Interval> before, hulls;
     for (const IrId value : values) before.push_back(current[value]);
     for (const auto& constraints : cases) {
@@ -182,7 +182,8 @@ bool BoxContractor::disjoin(IrId id) {
 
 std::size_t BoxContractor::boundedCount(std::span<const IrId> cone) const {
     std::size_t count = 0;
-    for (std::size_t axis = 0; axis < frame.count; ++axis) count += isBounded(current[frame.variables[axis]]);
+    for (std::size_t axis = 0; axis < frame->count; ++axis)
+        count += isBounded(current[frame->variables[axis]]);
     for (const IrId id : cone) count += isBounded(current[id]);
     return count;
 }
@@ -199,14 +200,21 @@ bool BoxContractor::narrow(std::span<const IrId> cone, std::span<const Replaceme
             return false;
         bool worthwhile = solved || boundedCount(cone) > boundedBefore;
         const Box after = variableBox();
-        for (std::size_t axis = 0; axis < frame.count; ++axis)
+        for (std::size_t axis = 0; axis < frame->count; ++axis)
             worthwhile |= after.hi[axis] - after.lo[axis] < kWorthwhile * (before.hi[axis] - before.lo[axis]);
         if (!worthwhile || isSpent()) break;
     }
     return true;
 }
 
+bool BoxContractor::projectDerived(IrId id, const LinearForm& form) {
+    for (const LinearForm::Term& term : form.terms)
+        if (!intersect(current[term.atom], solveForTerm(form, term.atom, current[id], current))) return false;
+    return true;
+}
+
 bool BoxContractor::projectNode(IrId id) {
+    if (const LinearForm* form = derivedForm(id)) return projectDerived(id, *form);
     const IrNode& node = ir[id];
     const int arity = opInfo(node.op).arity;
     Interval operands[kMaxArity];
@@ -284,12 +292,12 @@ bool BoxContractor::projectSplines(IrId id) {
 bool BoxContractor::solveLinear(std::span<const IrId> cone, std::span<const Replacement> replacements,
                                 bool& narrowed) {
     if (isBounded(variableBox())) return true;
-    frame.forms.add(ir, cone, everywhere, frame.isAtom);
+    frame->forms.add(ir, cone, everywhere, frame->isAtom);
     std::vector<LinearForm> rows;
     std::vector<Interval> bounds;
     for (const IrId id : cone) {
-        if (frame.forms[id].isAtom(id) || !isBounded(current[id])) continue;
-        LinearForm form = substitute(frame.forms[id], replacements);
+        if (frame->forms[id].isAtom(id) || !isBounded(current[id])) continue;
+        LinearForm form = substitute(frame->forms[id], replacements);
         const bool isUseful = std::ranges::any_of(
             form.terms, [&](const LinearForm::Term& term) { return !isBounded(current[term.atom]); });
         if (!isUseful) continue;
@@ -385,7 +393,7 @@ void BoxContractor::findRotations() {
         for (const Seen& other : others)
             if (other.firstIsSine != first.isSine && (y == first.x || other.signsDiffer != signsDiffer)) {
                 rotations.insert({std::min(id, other.id), {id, other.id, first.x, y}});
-                frame.isAtom[id] = frame.isAtom[other.id] = true;
+                frame->isAtom[id] = frame->isAtom[other.id] = true;
             }
         others.push_back({id, first.isSine, signsDiffer});
     };

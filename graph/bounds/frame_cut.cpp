@@ -12,20 +12,15 @@ constexpr int kMaxCut = 3;
 /// side to its out side, so that a unit of flow is a path and paths share no vertex.
 class Flow {
   public:
-    Flow(const Ir& ir, std::span<const IrId> cone, std::span<const IrId> variables,
-         const std::function<bool(IrId)>& isNumber)
+    Flow(std::span<const IrId> cone, std::span<const IrId> variables,
+         const std::function<std::vector<IrId>(IrId)>& operandsOf)
         : sink(int(2 * cone.size())), source(sink - 1), firstArc(std::size_t(sink) + 1, -1) {
         for (std::size_t v = 0; v < cone.size(); ++v) {
             addArc(int(2 * v), int(2 * v + 1), 1);
-            const IrNode& node = ir[cone[v]];
-            for (int i = 0; i < opInfo(node.op).arity; ++i) {
-                const IrId operand = node.operands[std::size_t(i)];
-                if (std::ranges::find(variables, operand) != variables.end()) {
-                    addArc(int(2 * v + 1), sink, kMaxCut + 1);
-                } else if (!isNumber(operand)) {
-                    const auto at = std::ranges::lower_bound(cone, operand) - cone.begin();
-                    addArc(int(2 * v + 1), int(2 * at), kMaxCut + 1);
-                }
+            for (const IrId operand : operandsOf(cone[v])) {
+                const bool isVariable = std::ranges::find(variables, operand) != variables.end();
+                const auto at = std::ranges::lower_bound(cone, operand) - cone.begin();
+                addArc(int(2 * v + 1), isVariable ? sink : int(2 * at), kMaxCut + 1);
             }
         }
     }
@@ -52,20 +47,19 @@ class Flow {
     }
 
     /// The vertices of the minimum cut next to the sink. Requires a maximum flow.
-    std::vector<std::size_t> cut() const {
-        std::vector<bool> reachesSink(firstArc.size());
-        std::vector<int> pending{sink};
-        reachesSink[std::size_t(sink)] = true;
-        for (std::size_t i = 0; i < pending.size(); ++i)
-            for (int arc = firstArc[std::size_t(pending[i])]; arc >= 0; arc = arcs[std::size_t(arc)].next) {
-                const int from = arcs[std::size_t(arc)].to;
-                if (arcs[std::size_t(arc ^ 1)].capacity == 0 || reachesSink[std::size_t(from)]) continue;
-                reachesSink[std::size_t(from)] = true;
-                pending.push_back(from);
-            }
+    std::vector<std::size_t> cutAtSink() const {
+        const std::vector<bool> reaches = connected(sink, true);
         std::vector<std::size_t> vertices;
         for (std::size_t v = 0; 2 * v < std::size_t(sink); ++v)
-            if (reachesSink[2 * v + 1] && !reachesSink[2 * v]) vertices.push_back(v);
+            if (reaches[2 * v + 1] && !reaches[2 * v]) vertices.push_back(v);
+        return vertices;
+    }
+    /// The vertices of the minimum cut next to the source. Requires a maximum flow.
+    std::vector<std::size_t> cutAtSource() const {
+        const std::vector<bool> isReached = connected(source, false);
+        std::vector<std::size_t> vertices;
+        for (std::size_t v = 0; 2 * v < std::size_t(sink); ++v)
+            if (isReached[2 * v] && !isReached[2 * v + 1]) vertices.push_back(v);
         return vertices;
     }
 
@@ -73,6 +67,22 @@ class Flow {
     struct Arc {
         int to, capacity, next;  ///< the next one that leaves the same side
     };
+    /// The sides that arcs with capacity left lead to from `start`, or that they lead from to `start`.
+    std::vector<bool> connected(int start, bool isBackwards) const {
+        std::vector<bool> isSeen(firstArc.size());
+        std::vector<int> pending{start};
+        isSeen[std::size_t(start)] = true;
+        for (std::size_t i = 0; i < pending.size(); ++i)
+            for (int arc = firstArc[std::size_t(pending[i])]; arc >= 0; arc = arcs[std::size_t(arc)].next) {
+                const int other = arcs[std::size_t(arc)].to;
+                if (arcs[std::size_t(isBackwards ? arc ^ 1 : arc)].capacity == 0 ||
+                    isSeen[std::size_t(other)])
+                    continue;
+                isSeen[std::size_t(other)] = true;
+                pending.push_back(other);
+            }
+        return isSeen;
+    }
     void addArc(int from, int to, int capacity) {
         arcs.push_back({to, capacity, firstArc[std::size_t(from)]});
         firstArc[std::size_t(from)] = int(arcs.size()) - 1;
@@ -87,15 +97,16 @@ class Flow {
 
 }  // namespace
 
-std::vector<IrId> frameCut(const Ir& ir, std::span<const IrId> cone, std::span<const IrId> variables,
-                           const std::function<bool(IrId)>& isNumber) {
+std::vector<IrId> frameCut(std::span<const IrId> cone, std::span<const IrId> variables, CutSide side,
+                           const std::function<std::vector<IrId>(IrId)>& operandsOf) {
     if (cone.size() < 2) return {};
-    Flow flow(ir, cone, variables, isNumber);
+    Flow flow(cone, variables, operandsOf);
     int count = 0;
     while (count <= kMaxCut && flow.augment()) ++count;
     if (count > kMaxCut) return {};
     std::vector<IrId> cut;
-    for (const std::size_t v : flow.cut()) cut.push_back(cone[v]);
+    for (const std::size_t v : side == CutSide::root ? flow.cutAtSource() : flow.cutAtSink())
+        cut.push_back(cone[v]);
     return cut;
 }
 

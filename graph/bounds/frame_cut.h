@@ -14,10 +14,13 @@
 
 namespace fw {
 
-/// At most three values of the cone, without its last one, through which all paths from the last one to the
-/// `variables` go; of several such cuts the one next to the variables. Empty if no such cut exists. `cone`:
-/// ids, ascending, without variables and numbers; `isNumber`: values that depend on no variable.
-std::vector<IrId> frameCut(const Ir& ir, std::span<const IrId> cone, std::span<const IrId> variables,
-                           const std::function<bool(IrId)>& isNumber);
+/// Of several smallest cuts: the one next to the variables, or the one next to the root.
+enum class CutSide : unsigned char { variables, root };
+
+/// At most three values of the cone, without its last one, through which all paths from that one to the
+/// `variables` go; as few as possible. Empty if no such cut exists. `cone`: ids, ascending, without
+/// variables; `operandsOf`: the operands of a value that are in the cone, or variables.
+std::vector<IrId> frameCut(std::span<const IrId> cone, std::span<const IrId> variables, CutSide side,
+                           const std::function<std::vector<IrId>(IrId)>& operandsOf);
 
 }  // namespace fw

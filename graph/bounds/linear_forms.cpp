@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t kMaxRows = 24, kMaxColumns = 12;
 constexpr double kSmallestPivot = 1e-5;  ///< of rows scaled to a largest factor of 1
 constexpr double kZeroFactor = 1e-13, kFormSlack = 1e-9;
+constexpr double kFactorSlack = 1e-11;  ///< of a form of a basis
 
 struct Row {
     std::array<double, kMaxColumns> factors{};   ///< of the unbounded atoms
@@ -55,6 +56,98 @@ LinearForm substitute(const LinearForm& form, std::span<const Replacement> repla
         result = sum(result, found == replacements.end() ? own : found->second, term.factor);
     }
     return result;
+}
+
+Interval rangeOver(const LinearForm& form, std::span<const Interval> atoms) {
+    Interval total{form.constant, form.constant};
+    double lowerSize = std::abs(form.constant), upperSize = lowerSize;
+    for (const LinearForm::Term& term : form.terms) {
+        const Interval part = Interval{term.factor, term.factor} * atoms[term.atom];
+        total = total + part;
+        lowerSize += std::abs(part.lo), upperSize += std::abs(part.hi);
+    }
+    return {total.lo > -kHuge ? total.lo - kFactorSlack * lowerSize : -kHuge,
+            total.hi < kHuge ? total.hi + kFactorSlack * upperSize : kHuge};
+}
+
+Interval solveForTerm(const LinearForm& form, IrId atom, Interval range, std::span<const Interval> atoms) {
+    LinearForm rest{.terms = {}, .constant = form.constant};
+    double factor = 1.0;
+    for (const LinearForm::Term& term : form.terms) {
+        if (term.atom == atom)
+            factor = term.factor;
+        else
+            rest.terms.push_back(term);
+    }
+    const Interval result = (range - rangeOver(rest, atoms)) / Interval{factor, factor};
+    return {result.lo > -kHuge ? result.lo - kFactorSlack * std::abs(result.lo) : -kHuge,
+            result.hi < kHuge ? result.hi + kFactorSlack * std::abs(result.hi) : kHuge};
+}
+
+LinearBasis basisOf(std::span<const LinearForm> forms, std::span<const IrId> atoms) {
+    constexpr std::size_t kDimensions = 3;
+    if (atoms.size() > kDimensions) return {};
+    using Row = std::array<double, kDimensions>;
+    const auto rowOf = [&](const LinearForm& form) {
+        Row row{};
+        for (const LinearForm::Term& term : form.terms)
+            row[std::size_t(std::ranges::find(atoms, term.atom) - atoms.begin())] = term.factor;
+        return row;
+    };
+    const auto dot = [](const Row& a, const Row& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+    // Gram-Schmidt: each time the form with the largest share outside the span so far.
+    std::vector<Row> rows, rests;
+    double longest = 0.0;
+    for (const LinearForm& form : forms) {
+        rows.push_back(rowOf(form));
+        longest = std::max(longest, std::sqrt(dot(rows.back(), rows.back())));
+    }
+    rests = rows;
+    LinearBasis basis;
+    std::vector<Row> units;
+    while (units.size() < atoms.size()) {
+        std::size_t best = 0;
+        double largest = kSmallestPivot;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const double length = std::sqrt(dot(rows[i], rows[i])),
+                         share = std::sqrt(dot(rests[i], rests[i])) / length;
+            // Factors that are only rounding errors are no direction. The first of those that are as good.
+            if (length > kSmallestPivot * longest && share > 1.001 * largest) largest = share, best = i;
+        }
+        if (largest == kSmallestPivot) break;
+        const double length = std::sqrt(dot(rests[best], rests[best]));
+        Row unit = rests[best];
+        for (double& value : unit) value /= length;
+        units.push_back(unit);
+        basis.chosen.push_back(best);
+        for (Row& rest : rests) {
+            const double along = dot(rest, unit);
+            for (std::size_t i = 0; i < kDimensions; ++i) rest[i] -= along * unit[i];
+        }
+    }
+    // In the units the chosen rows are triangular.
+    for (std::size_t f = 0; f < forms.size(); ++f) {
+        LinearForm form{.terms = {}, .constant = forms[f].constant};
+        Row left = rows[f];
+        for (std::size_t k = units.size(); k-- > 0;) {
+            const Row& chosen = rows[basis.chosen[k]];
+            const double factor = dot(left, units[k]) / dot(chosen, units[k]);
+            const double share = std::abs(factor) * std::sqrt(dot(chosen, chosen) / dot(rows[f], rows[f]));
+            if (share < kZeroFactor) continue;
+            for (std::size_t i = 0; i < kDimensions; ++i) left[i] -= factor * chosen[i];
+            form.terms.insert(form.terms.begin(), {IrId(k), factor});
+            form.constant -= factor * forms[basis.chosen[k]].constant;
+        }
+        if (std::sqrt(dot(left, left) / dot(rows[f], rows[f])) > kZeroFactor * 10.0) return {};
+        basis.forms.push_back(std::move(form));
+    }
+    return basis;
+}
+
+void LinearForms::set(IrId id, LinearForm form) {
+    if (forms.size() <= id) forms.resize(id + 1), isKnown.resize(id + 1);
+    forms[id] = std::move(form);
+    isKnown[id] = true;
 }
 
 void LinearForms::add(const Ir& ir, std::span<const IrId> ids, std::span<const Interval> values,

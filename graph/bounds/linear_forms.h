@@ -33,6 +33,11 @@ struct LinearForm {
 /// a + factorOfB * b.
 LinearForm sum(const LinearForm& a, const LinearForm& b, double factorOfB);
 
+/// The range of a form over intervals of its atoms, and what a range of the form leaves of one of them. The
+/// factors may be rounded: both are widened for that.
+Interval rangeOver(const LinearForm& form, std::span<const Interval> atoms);
+Interval solveForTerm(const LinearForm& form, IrId atom, Interval range, std::span<const Interval> atoms);
+
 /// An atom that is written as another form.
 using Replacement = std::pair<IrId, LinearForm>;
 LinearForm substitute(const LinearForm& form, std::span<const Replacement> replacements);
@@ -48,13 +53,24 @@ class LinearForms {
     void add(const Ir& ir, std::span<const IrId> ids, std::span<const Interval> values,
              const std::vector<bool>& isAtom);
 
-    /// Requires an id that was added.
+    void set(IrId id, LinearForm form);
+
+    /// Requires an id that was added or set.
     const LinearForm& operator[](IrId id) const { return forms[id]; }
 
   private:
     std::vector<LinearForm> forms;
     std::vector<bool> isKnown;
 };
+
+/// Up to three of the forms, as a basis of which all forms are linear combinations; and all forms as forms of
+/// the basis, whose atoms are indices of the basis. Empty if the forms span more than three dimensions.
+/// `atoms`: all that the forms have.
+struct LinearBasis {
+    std::vector<std::size_t> chosen;  ///< indices of forms
+    std::vector<LinearForm> forms;
+};
+LinearBasis basisOf(std::span<const LinearForm> forms, std::span<const IrId> atoms);
 
 /// Solves bounded forms for their unbounded atoms: bounds[i] contains forms[i]. `atoms` has the current
 /// interval of each atom, by id; those that are unbounded are narrowed where the system determines them.

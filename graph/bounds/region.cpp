@@ -15,7 +15,7 @@ constexpr double kPartShellRatio = 4.0;  // of a shell's outer and inner size
 constexpr double kSmallestPartShell = 1.0 / 1024.0;
 constexpr int kMaxPartSplits = 24;
 constexpr std::size_t kPartSteps = 300'000;  // of operations on intervals, for one part
-constexpr std::size_t kContractionSteps = 4'000'000;
+constexpr std::size_t kContractionSteps = 10'000'000, kExhaustiveSteps = 5'000'000;
 
 /// Bounds a part that the contractor alone does not bound.
 class ShellSearch {
@@ -112,7 +112,15 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
             continue;
         }
         if (!shells) shells.emplace(ir, distance, parameters, lipschitz, contractor, stop);
-        const Region region = shells->bound(parts[i].root, parts[i].box);
+        Region region = shells->bound(parts[i].root, parts[i].box);
+        if (region.extent == Extent::unproven) {
+            const std::optional<Box> box =
+                contractor.contractExhaustively(parts[i].root, 0.0, parts[i].box, kExhaustiveSteps);
+            if (!box)
+                region = {Extent::empty, {}, {}};
+            else if (isBounded(*box))
+                region = {Extent::bounded, *box, {}};
+        }
         if (region.extent == Extent::unbounded || region.extent == Extent::unproven) return region;
         if (region.extent == Extent::empty) {
             parts.erase(parts.begin() + std::ptrdiff_t(i));

@@ -92,7 +92,7 @@ class AffineWriter {
                 std::ranges::count_if(linear, [](double f) { return f != 0.0 && std::abs(f) != 1.0; });
             operations += std::size_t(terms + scaled - 1);
         }
-        const bool finite = std::ranges::all_of(*sums[id], [](double f) { return std::abs(f) < kHuge; });
+        const bool finite = std::ranges::all_of(*sums[id], [](double f) { return std::abs(f) < kMaxFactor; });
         if (!finite || operations >= cone.size()) return false;
         for (const IrId left : cone) there[left] = left == id;
         written.insert(linear);

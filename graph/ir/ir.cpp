@@ -59,8 +59,9 @@ IrId Ir::collect(Op op, IrId a, IrId b) {
         return {x, 1.0};
     };
     const auto times = [&](IrId x, double factor) {
-        const bool kept = factor == 0.0 || (std::abs(factor) > 1e-30 && std::abs(factor) < kHuge);
-        return kept ? add(Op::multiply, x, constant(factor)) : kNone;  // a float holds it, and its inverse
+        const bool isFloat =
+            factor == 0.0 || (std::abs(factor) > 1.0 / kMaxFactor && std::abs(factor) < kMaxFactor);
+        return isFloat ? add(Op::multiply, x, constant(factor)) : kNone;
     };
     const Multiple x = multiple(a), y = multiple(b);
     if (op == Op::multiply) {

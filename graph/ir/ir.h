@@ -27,6 +27,8 @@ namespace fw {
 using IrId = uint32_t;
 
 inline constexpr std::size_t kMaxIrOperations = 200'000;
+/// Factors up to this one are folded: floats hold them and their inverses.
+inline constexpr double kMaxFactor = 1e30;
 
 /// Which of x, y, z a value depends on; 0 for what is constant over space.
 enum PositionMask : uint8_t { dependsOnX = 1, dependsOnY = 2, dependsOnZ = 4 };

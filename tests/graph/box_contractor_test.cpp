@@ -528,7 +528,15 @@ TEST(FrameCut, SeparatesTheRootFromTheVariables) {
         };
         std::vector<IrId> cone, rest;
         ASSERT_TRUE(walk({}, cone));
-        const std::vector<IrId> cut = frameCut(ir, cone, variables, isNumber);
+        const auto operandsOf = [&](IrId id) {
+            std::vector<IrId> operands;
+            for (int i = 0; i < opInfo(ir[id].op).arity; ++i)
+                if (const IrId operand = ir[id].operands[std::size_t(i)]; !isNumber(operand))
+                    operands.push_back(operand);
+            return operands;
+        };
+        const CutSide side = n % 2 ? CutSide::root : CutSide::variables;
+        const std::vector<IrId> cut = frameCut(cone, variables, side, operandsOf);
         ASSERT_LE(cut.size(), 3u);
         if (cut.empty()) continue;
         ++cuts;
