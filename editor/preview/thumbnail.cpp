@@ -14,6 +14,7 @@
 #include "graph/compile/compile.h"
 #include "graph/evaluate/tape.h"
 #include "runtime/particles/particle_fields.h"
+#include "runtime/play/step_constant.h"
 #include "runtime/render/view.h"
 
 namespace fw::editor {
@@ -38,7 +39,7 @@ struct Rays {
 struct Field {
     Tape tape, colors;  ///< the distance, within the solid's box; and the base colour
     double size;        ///< of the solid's box, metres
-    double lipschitz;   ///< infinite: unknown
+    double lipschitz;   ///< within the solid's box; infinite: unknown
     TapeMachine<float> machine = {};
 
     /// Puts the ends of some of the rays where the machine reads them.
@@ -178,7 +179,8 @@ Result<Thumbnail> thumbnail(const Graph& graph, std::string_view path,
     for (std::size_t axis = 0; axis < 3; ++axis) size = std::max(size, box.hi[axis] - box.lo[axis]);
     const std::span<const IrId> color = std::span(program->surface).subspan(baseColorComponent, 3);
     Field field{makeTape(program->ir, program->distance(), parameters),
-                makeTape(program->ir, color, parameters), size, program->exactness.lipschitz};
+                makeTape(program->ir, color, parameters), size,
+                stepConstantWithin(*program, box, kMaxLiveConstant)};
     field.machine.interval(field.tape, box);
     field.tape = field.machine.shortened(field.tape);
     return Thumbnail{program->structureHash, draw(field, box), ofParticles};

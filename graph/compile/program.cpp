@@ -1,6 +1,7 @@
 #include "graph/compile/program.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "graph/evaluate/local_lipschitz.h"
@@ -9,8 +10,8 @@ namespace fw {
 
 namespace {
 
-/// Parts of a box over which a Lipschitz constant is proven.
-constexpr int kMaxLipschitzParts = 1025;
+/// Parts of a box over which a Lipschitz constant is proven. A search with fewer is not worth its start.
+constexpr std::size_t kMaxLipschitzParts = 1025, kMinLipschitzParts = 9;
 
 }  // namespace
 
@@ -49,8 +50,23 @@ Exactness exactnessWithin(const Program& program, const Box& box) {
     Exactness exactness = program.exactness;
     if (exactness.bound()) return exactness;
     const Tape tape = makeTape(program.ir, program.distance(), program.parameters());
-    exactness.lipschitz = std::min(exactness.lipschitz, lipschitzOver(tape, box, kMaxLipschitzParts));
+    exactness.lipschitz = std::min(exactness.lipschitz, lipschitzOver(tape, box, int(kMaxLipschitzParts)));
     return exactness;
+}
+
+double lipschitzWithin(const Program& program, const Box& box, std::size_t maxSteps) {
+    double constant = program.exactness.lipschitz;
+    if (std::isfinite(constant)) return constant;
+    constant = 0.0;
+    const std::size_t roots = program.transmits() ? 2 : 1;
+    for (std::size_t i = 0; i < roots && std::isfinite(constant); ++i) {
+        const IrId root = (i ? program.opaque : program.surface)[distanceComponent];
+        const Tape tape = makeTape(program.ir, root, program.parameters());
+        const std::size_t parts = maxSteps / roots / (tape.steps.size() + 1);
+        if (parts < kMinLipschitzParts) return kUnknownLipschitz;
+        constant = std::max(constant, lipschitzOver(tape, box, int(std::min(parts, kMaxLipschitzParts))));
+    }
+    return constant;
 }
 
 }  // namespace fw

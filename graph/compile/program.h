@@ -79,4 +79,12 @@ Region findRegion(const Program& program, std::stop_token stop = {});
 /// interval differentiation proves there (local_lipschitz.h) where that is smaller. Takes milliseconds.
 Exactness exactnessWithin(const Program& program, const Box& box);
 
+/// Steps of tapes that a search for a Lipschitz constant evaluates at most: of about 50 ms and of 1 ms.
+inline constexpr std::size_t kThoroughSteps = 500'000, kQuickSteps = 8'000;
+
+/// A Lipschitz constant of the distance and of the opaque part's distance within a box, for the present live
+/// values: the declared one or, if that is infinite, a proven one. Infinity if none is proven, or if the
+/// program has particles that are not made. `maxSteps`: as kThoroughSteps.
+double lipschitzWithin(const Program& program, const Box& box, std::size_t maxSteps = kThoroughSteps);
+
 }  // namespace fw

@@ -134,6 +134,10 @@ std::string exactnessText(const Exactness& e) {
     return e.outside ? "exact outside" : e.inside ? "exact inside" : "a bound";
 }
 
+std::string lipschitzText(double constant) {
+    return "at most " + numberText(std::ceil(constant * 100.0 - 1e-6) / 100.0) + "-Lipschitz";
+}
+
 std::string nodesMarkdown() {
     std::string text =
         "# Node reference\n\n"

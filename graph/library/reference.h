@@ -22,6 +22,8 @@ std::string nodeMarkdown(const NodeType& type);
 
 /// "exact", "exact outside", "exact inside", "a bound", "distorted by up to 1.41" or "distorted".
 std::string exactnessText(const Exactness& exactness);
+/// "at most 2.31-Lipschitz", rounded up.
+std::string lipschitzText(double constant);
 /// What the page says of an input: "float", "choice"; "0, 1, 0 m", "position"; " From 0 to 1.", " Choices:
 /// …", " Files: …". Names in it stand in backticks.
 std::string typeText(const InputSpec& input);

@@ -168,6 +168,16 @@ void printCost(const Program& program) {
             secondsToTrace(weightAtSurface(program, *region)));
 }
 
+/// How far the field is a distance; where no Lipschitz constant is declared, with the proven one.
+std::string exactnessClause(const Program& program) {
+    if (program.exactness.exact()) return "exact distance";
+    std::string clause = "not an exact distance since node " + inQuotes(program.spoiledBy);
+    if (std::isfinite(program.exactness.lipschitz)) return clause;
+    const Result<Box> region = meshRegion(program, {});
+    const double constant = region ? lipschitzWithin(program, *region) : kUnknownLipschitz;
+    return clause + (std::isfinite(constant) ? ", " + lipschitzText(constant) + " within its region" : "");
+}
+
 }  // namespace
 
 int runCompile(const CompileCommandOptions& options) {
@@ -182,10 +192,7 @@ int runCompile(const CompileCommandOptions& options) {
     const std::optional<Program> program = openProgram(*graph, options.graph.time, std::move(compileOptions));
     if (!program) return kBadInput;
     std::fprintf(stderr, "%zu operations, structure %016llx, %s\n", program->ir.size(),
-                 static_cast<unsigned long long>(program->structureHash),
-                 program->exactness.exact()
-                     ? "exact distance"
-                     : ("not an exact distance since node " + inQuotes(program->spoiledBy)).c_str());
+                 static_cast<unsigned long long>(program->structureHash), exactnessClause(*program).c_str());
     if (options.cost) {
         printCost(*program);
     } else if (options.emit == "ir") {

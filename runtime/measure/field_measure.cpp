@@ -231,6 +231,8 @@ MeasureOptions measureOf(const Program& program, const Box& region, Points wante
     if (!program.exactness.exact())
         measure.errorNote = "left out: the field is no distance since node " + inQuotes(program.spoiledBy) +
                             "; meshToSurfaceMax is one";
+    if (const double constant = lipschitzWithin(program, region); std::isfinite(constant))
+        measure.lipschitz = constant;
     const Tape tape = makeTape(program.ir, program.distance(), program.parameters());
     const auto at = [tape](std::span<const Point> positions) {
         std::vector<ValueGradient> results(positions.size());

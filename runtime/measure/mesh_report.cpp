@@ -16,6 +16,7 @@
 #include "graph/assets/triangle_tree.h"
 #include "graph/base/parallel.h"
 #include "graph/base/words.h"
+#include "graph/library/reference.h"
 #include "runtime/measure/read_back.h"
 #include "runtime/mesh/corners.h"
 
@@ -358,6 +359,7 @@ Report reportOnWelded(const WeldedMesh& mesh, const MeasureOptions& options) {
     if (total.count > 0) {
         report.maxError = total.greatest;
         report.errorNote = options.errorNote;
+        report.lipschitz = options.lipschitz;
         report.meanError = total.sum / static_cast<double>(total.count);
     }
     return report;
@@ -422,6 +424,7 @@ std::string writeReport(const Report& report) {
     out["maxError"] = known(distances ? report.maxError : std::nullopt);
     out["meanError"] = known(distances ? report.meanError : std::nullopt);
     if (!distances) out["errorNote"] = report.errorNote;
+    if (report.lipschitz) out["lipschitz"] = *report.lipschitz;
     out["selfIntersections"] = report.selfIntersections ? nlohmann::ordered_json(*report.selfIntersections)
                                                         : nlohmann::ordered_json();
     out["smallestAngle"] = report.smallestAngle;
@@ -477,6 +480,8 @@ std::string reportWords(const Report& report) {
                           completeness->complete()
                               ? completeness->proven ? "yes, proven" : "yes, as far as samples show"
                               : "no: " + describeMissing(*completeness));
+    if (report.lipschitz && *report.lipschitz > 1.0)
+        rows.emplace_back("Field", lipschitzText(*report.lipschitz) + " within the region");
     if (report.meshToSurface) rows.emplace_back("From mesh to surface", length(report.meshToSurface->max));
     if (report.surfaceToMesh) rows.emplace_back("From surface to mesh", length(report.surfaceToMesh->max));
     std::string words;

@@ -43,9 +43,10 @@ struct SurfacePoint {
 struct MeasureOptions {
     bool selfIntersections = false, widths = false;
     FieldError error = {};
-    std::string errorNote = {};   ///< of the report
-    FieldError distance = {};     ///< the same, but metres to a point of the surface nearby,
-    std::size_t samples = 32768;  ///< asked of so many points of the mesh
+    std::string errorNote = {};            ///< of the report
+    std::optional<double> lipschitz = {};  ///< constant of the field within its region; empty if unknown
+    FieldError distance = {};              ///< the same, but metres to a point of the surface nearby,
+    std::size_t samples = 32768;           ///< asked of so many points of the mesh
     std::vector<SurfacePoint> surface = {};
 };
 
@@ -81,6 +82,8 @@ struct Report : MeshSize {
     std::optional<double> maxError,
         meanError;               ///< over vertices and triangle centroids; none without a field
     std::string errorNote = {};  ///< why these two are no distances and are not told; empty if they are
+    /// Lipschitz constant of the field within the region, as declared or proven; empty if neither is known.
+    std::optional<double> lipschitz = {};
     std::optional<uint64_t> selfIntersections;   ///< pairs of triangles that cut each other (triangle_tree.h)
     double smallestAngle = 0, largestAngle = 0;  ///< of the triangles that are not degenerate, degrees
     /// From points spread evenly over the mesh's area to the surface; from points of the surface, found

@@ -26,6 +26,8 @@ namespace {
 
 /// Beyond these, in metres, squares of lengths leave the range of single precision.
 constexpr double kLeastCell = 1e-16, kFarthestCorner = 1e15;
+/// Views that show one content in turn. Live values rest if it is shown more often.
+constexpr int kMostViews = 4;
 
 Error problem(std::string message) { return {.message = std::move(message)}; }
 
@@ -151,6 +153,7 @@ void Session::take(Program program) {
     checkFits(*gpu, "samples of all fields on grids", texels.size() * sizeof(uint32_t),
               DeviceLimits::kTexelBytes * gpu->limits.texels());
     current = std::move(program);
+    stepConstants.reset();
     if (!sameImages) {
         reserve(*gpu, images, words.size() * sizeof(uint32_t));
         upload(*gpu, images, words);
@@ -476,12 +479,36 @@ Mesh Session::finished(Mesh mesh, bool creases, MaterialParts wanted) const {
     return mesh;
 }
 
+double Session::stepConstant(Quality quality) {
+    const bool searches = !std::isfinite(current.exactness.lipschitz) && !particles;
+    if (!searches) return current.exactness.lipschitz;
+    // Positions are rounded, so rays may leave the box by this part of its size.
+    const double margin =
+        1e-5 * double(std::max({grid.hi.x - grid.lo.x, grid.hi.y - grid.lo.y, grid.hi.z - grid.lo.z}));
+    Box box;
+    for (int axis = 0; axis < 3; ++axis) {
+        box.lo[std::size_t(axis)] = grid.lo[axis] - margin;
+        box.hi[std::size_t(axis)] = grid.hi[axis] + margin;
+    }
+    if (quality != Quality::live) return stepConstants.of(current, box, kMaxStillConstant, true);
+    const bool sameContent = liveContent == content;
+    liveFrames = sameContent ? liveFrames + 1 : 0;
+    const double constant =
+        stepConstants.of(current, box, kMaxLiveConstant, current.live.empty() || liveFrames >= kMostViews);
+    // A resting view is the mean of frames, which all step in the same way.
+    const bool wasKnown = std::exchange(steppedByConstant, std::isfinite(constant));
+    if (sameContent && wasKnown != steppedByConstant) ++content;
+    liveContent = content;
+    return constant;
+}
+
 template <class Draw>
-auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw, bool sketches)
+auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw, Quality quality)
     -> decltype(draw(std::declval<Renderer&>(), std::declval<RenderScene&>(), options)) {
     // Beside the field, a changed mesh would not be seen: where there are stages, the mesh alone is drawn.
     const bool looksInto = showsField(options.show) || options.show == RENDER_AMBIENT;
     if (tapes && looksInto) return tooLargeToLookInto(current);
+    const bool sketches = quality == Quality::sketch;
     const bool draft =
         drafting() || sketches || !current.stages.empty() || (!looksInto && (tapes || isTracedForLong()));
     std::optional<Renderer>& with = sketches ? sketcher : renderer;
@@ -500,13 +527,15 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw,
         .emission = constants.emission,
         .metallic = constants.metallic,
         .colored = result.colors && 12ull * result.vertices <= gpu->limits.storageRange};
+    const double lipschitz = draft ? current.exactness.lipschitz : stepConstant(quality);
     std::vector<ParticleCloud> clouds;
     if (particles && showsParticles(options.show)) clouds = particles->clouds(current);
     const RenderScene scene{.mesh = buffers,
                             .vertices = result.vertices,
                             .triangles = result.triangles,
                             .grid = grid,
-                            .lipschitz = static_cast<float>(current.exactness.lipschitz),
+                            .lipschitz = static_cast<float>(lipschitz),
+                            .lipschitzWithinGrid = !std::isfinite(current.exactness.lipschitz),
                             .buffers = fieldBuffers(),
                             .families = &current.families,
                             .transmits = current.transmits(),
@@ -519,9 +548,12 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw,
 
 Result<Picture> Session::render(const MesherResult& result, const RenderOptions& options) {
     rememberParameters();
-    return draw(result, options, [](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
-        return renderPicture(with, scene, wishes);
-    });
+    return draw(
+        result, options,
+        [](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
+            return renderPicture(with, scene, wishes);
+        },
+        Quality::still);
 }
 
 void Session::rememberParameters() {
@@ -529,10 +561,12 @@ void Session::rememberParameters() {
 }
 
 Result<bool> Session::renderLive(const MesherResult& result, const RenderOptions& options, Picture* onHost) {
-    Result<bool> drawn =
-        draw(result, options, [&](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
+    Result<bool> drawn = draw(
+        result, options,
+        [&](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
             return fw::renderLive(with, scene, wishes, onHost);
-        });
+        },
+        Quality::live);
     if (drawn && *drawn) rememberParameters();
     return drawn;
 }
@@ -543,7 +577,7 @@ Result<bool> Session::sketch(const MesherResult& result, const RenderOptions& op
         [&](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
             return fw::renderLive(with, scene, wishes, &onHost);
         },
-        true);
+        Quality::sketch);
 }
 
 }  // namespace fw

@@ -16,6 +16,7 @@
 #include "runtime/mesh/materials.h"
 #include "runtime/mesher/mesher.h"
 #include "runtime/particles/particle_fields.h"
+#include "runtime/play/step_constant.h"
 #include "runtime/render/renderer.h"
 #include "runtime/stages/mesh_stages.h"
 
@@ -173,9 +174,12 @@ class Session {
     /// What the program does to the mesh that was made in `region`; `program` is what the host evaluates, if
     /// it has the kernels' part.
     Done runStages(MesherResult& result, const Box& region, const Program* onHost, bool timed);
+    enum class Quality { sketch, live, still };
+    /// The Lipschitz constant by which rays step in a picture of this quality; infinite if none is known.
+    double stepConstant(Quality quality);
     /// Calls draw(renderer, scene, options) with the mesh's points for what the options leave open.
     template <class Draw>
-    auto draw(const MesherResult& result, RenderOptions options, Draw draw, bool sketches = false)
+    auto draw(const MesherResult& result, RenderOptions options, Draw draw, Quality quality)
         -> decltype(draw(std::declval<Renderer&>(), std::declval<RenderScene&>(), options));
 
     std::unique_ptr<Device> gpu;  ///< stays put when the session moves, for the thread that compiles
@@ -185,6 +189,10 @@ class Session {
     std::optional<uint64_t> weighedHash;  // of this structure
     double codeAdditions = 0;             // as codeWeight(),
     std::optional<uint64_t> codedHash;    // of this structure
+    StepConstant stepConstants;
+    std::optional<uint64_t> liveContent;  // content number of the last live frame
+    int liveFrames = 0;                   // with that number, less one
+    bool steppedByConstant = false;       // that frame had a known step constant
     Program current;
     uint64_t builtHash = 0;
     bool built = false;

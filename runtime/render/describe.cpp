@@ -9,7 +9,8 @@ namespace fw {
 
 namespace {
 
-constexpr float kGroundEnd = 2.8f;  // where the ground has faded, in the solid's radii
+constexpr float kGroundEnd = 2.8f;       // where the ground has faded, in the solid's radii
+constexpr float kLeastConstant = 1e-3f;  // of proven Lipschitz constants; declared ones count as 1 or more
 constexpr float kExposure = 0.66f;
 constexpr uint32_t kFogKept = 4;  // frames that a moving view's fog is the mean of
 constexpr float kFogEnd = 12.0f;  // in the solid's radii
@@ -96,7 +97,7 @@ gpu::TracePush shadowRays(const gpu::RenderFrame& frame) {
     rays.originY = whole(frame.shadowUp);
     rays.near = 0.5f * glm::length(frame.shadowForward);
     rays.pixel = 0.25f * frame.shadowTexel;
-    rays.parallel = 1;
+    rays.flags = RENDER_PARALLEL;
     return rays;
 }
 
@@ -116,8 +117,10 @@ gpu::RenderFrame describeFrame(const Renderer& renderer, const RenderScene& scen
     frame.lo = scene.grid.lo;
     frame.hi = scene.grid.hi;
     frame.cellSize = scene.grid.cellSize;
-    frame.stepScale =
-        std::isfinite(scene.lipschitz) ? 1.0f / std::max(scene.lipschitz, 1.0f) : renderer.trust;
+    const bool known = std::isfinite(scene.lipschitz);
+    frame.localSteps = known && scene.lipschitzWithinGrid;
+    const float least = frame.localSteps ? kLeastConstant : 1.0f;
+    frame.stepScale = known ? 1.0f / std::max(scene.lipschitz, least) : renderer.trust;
     frame.centre = bounds.centre;
     frame.radius = bounds.radius;
     // Seen from below there is none, so that the solid's underside is in the light.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
 #include "graph/base/hash.h"
@@ -34,6 +35,14 @@ void trace(Commands& commands, Renderer& renderer, const RenderScene& scene, Dep
     rays.stepScale = frame.stepScale;
     rays.close = care.close * rays.pixel;
     rays.steps = care.steps;
+    if (frame.localSteps) {
+        rays.flags |= RENDER_LOCAL_STEPS;
+        // A hit more than two cells from the surface would pass for a side of the region (surface.comp).
+        const bool parallel = rays.flags & RENDER_PARALLEL;
+        const float far = parallel ? 1.0f : glm::distance(rays.origin, frame.centre) + frame.radius;
+        rays.close = std::min(rays.close, frame.cellSize / far) * std::min(scene.lipschitz, 1.0f);
+        rays.steps = uint32_t(float(care.steps) * std::max(scene.lipschitz, 1.0f));
+    }
     traceDepth(commands, renderer.depth, target, extent, rays, fieldOf(renderer, scene));
 }
 
@@ -99,9 +108,11 @@ bool mustDraw(const RenderScene& scene, const RenderOptions& options) {
 
 bool wantsTracing(const RenderScene& scene, const RenderOptions& options, const Renderer& renderer) {
     if (mustDraw(scene, options)) return false;
-    const bool measured = options.primary == Primary::measured && renderer.tracing.value_or(false);
-    const bool known = options.primary == Primary::traced && std::isfinite(scene.lipschitz);
-    return options.reference || (scene.triangles > 0 && (measured || known));
+    const bool known = std::isfinite(scene.lipschitz);
+    const bool measured = options.primary == Primary::measured && renderer.tracing.value_or(false) &&
+                          (known || renderer.measuredTrust);
+    return options.reference ||
+           (scene.triangles > 0 && (measured || (options.primary == Primary::traced && known)));
 }
 
 void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene, bool traced,
@@ -247,16 +258,16 @@ void measurePrimary(Renderer& renderer, const RenderScene& scene) {
     const double drawing = timed(false);
     const std::vector<float> drawn = std::move(depths);
     const bool known = std::isfinite(scene.lipschitz);
+    const bool compares = !known || scene.lipschitzWithinGrid;
     renderer.tracing = false;
+    renderer.measuredTrust = !known;
     for (const float trust : {1.0f, 0.5f}) {
-        renderer.trust = trust;
-        if (!known) renderer.described.stepScale = trust;
+        if (!known) renderer.trust = renderer.described.stepScale = trust;
         const double tracing = timed(true);
-        if (!known && agreement(drawn, depths, extent, renderer.described.now.near,
-                                2.0f * scene.grid.cellSize) < kTrusted)
-            continue;
-        renderer.tracing = tracing < drawing;
-        return;
+        const bool agrees = !compares || agreement(drawn, depths, extent, renderer.described.now.near,
+                                                   2.0f * scene.grid.cellSize) >= kTrusted;
+        renderer.tracing = agrees && tracing < drawing;
+        if (agrees || known) return;
     }
 }
 

@@ -52,6 +52,7 @@ struct RenderScene {
     uint32_t vertices = 0, triangles = 0;           ///< of the mesh
     MeshGrid grid;                                  ///< that it was made on
     float lipschitz = 1.0f;                         ///< of the field; infinite if unknown
+    bool lipschitzWithinGrid = false;               ///< it holds only within the grid's box
     FieldBuffers buffers = {};                      ///< of the field, without lists
     const Families* families = nullptr;             ///< of the field, where it has some
     bool transmits = false;                         ///< light passes through some of it
@@ -204,6 +205,7 @@ struct Renderer {
     std::optional<bool> tracing;   ///< what Primary::measured came to
     bool slow = true;    ///< a live frame of this field took long, or none was drawn: the next is parted
     float trust = 0.5f;  ///< part of its value by which a field without a known constant may be stepped
+    bool measuredTrust = true;  ///< Primary::measured was found with `trust`, not with a known constant
 };
 
 /// `field` as for createFieldKernels.

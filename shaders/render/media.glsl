@@ -7,15 +7,16 @@ const float kSameMedium = 0.01;  // difference in the index of refraction
 
 // The whole solid at p, cut at the region; negative inside.
 float wholeAt(Bounds bounds, vec3 p) {
-    vec3 from = p - bounds.centre, q = abs(from) - bounds.half_, at = from * bounds.perHalf;
+    vec3 q = abs(p - bounds.centre) - bounds.half_;
+    vec3 within = steppingPoint(bounds, p), at = (within - bounds.centre) * bounds.perHalf;
     chooseMembers(at);
     float region = max(q.x, max(q.y, q.z));
-    return withinPlaces(at) ? max(fieldValue(p) * bounds.stepScale, region) : region;
+    return withinPlaces(at) ? max(fieldValue(within) * bounds.stepScale, region) : region;
 }
 float opaqueAt(Bounds bounds, vec3 p) {
 #ifdef FIELD_TRANSMITS
     vec3 q = abs(p - bounds.centre) - bounds.half_;
-    return max(fieldOpaque(p) * bounds.stepScale, max(q.x, max(q.y, q.z)));
+    return max(fieldOpaque(steppingPoint(bounds, p)) * bounds.stepScale, max(q.x, max(q.y, q.z)));
 #else
     return wholeAt(bounds, p);
 #endif

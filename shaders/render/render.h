@@ -23,6 +23,9 @@ using std::log2;
 #define RENDER_NEAR 3    // with surface that ambient occlusion may reach
 #define RENDER_LISTS 4
 
+#define RENDER_PARALLEL 1     // of TracePush: all rays have one direction
+#define RENDER_LOCAL_STEPS 2  // of TracePush: stepScale only holds between lo and hi
+
 #define RENDER_PATHS 8  // pixels along each side of a work group of path.comp
 
 #define RENDER_PLACES 32       // boxes along each axis of the grid of the families' lists: places.glsl
@@ -105,6 +108,7 @@ struct RenderFrame {
     float cellSize;  // of the mesh, metres
     vec3 hi;
     float stepScale;  // makes the field's value a distance that a ray may safely go
+    uint localSteps;  // 1: stepScale only holds between lo and hi
     vec3 centre;      // of the solid
     float radius;     // of the solid, metres
     float ground;     // its height, metres; -1e30: there is none
@@ -213,8 +217,8 @@ struct TracePush {
     float close;  // a field below it is a hit, likewise
     float stepScale;
     uvec2 size;
-    uint parallel;  // 1: all rays have one direction
-    uint steps;     // of a ray, at most
+    uint flags;  // RENDER_PARALLEL, RENDER_LOCAL_STEPS
+    uint steps;  // of a ray, at most
 };
 
 // Paths of light.

@@ -22,12 +22,17 @@ vec3 heat(float x) {
 // Steps that sphere tracing takes along the ray.
 float steps(vec3 origin, vec3 ray, float end) {
     float t = frame.now.near, stepScale = frame.stepScale / length(ray), close = frame.now.pixel, f;
+    // As steppingPoint() of solid.glsl.
+    bvec3 local = bvec3(frame.localSteps != 0);
+    vec3 stepLo = mix(vec3(-1e30), frame.lo, local), stepHi = mix(vec3(1e30), frame.hi, local);
     uint i = 0;
     do {
-        vec3 p = origin + ray * t, at = fromMiddle(p);
+        vec3 p = origin + ray * t, within = clamp(p, stepLo, stepHi), at = fromMiddle(within);
         chooseMembers(at);
-        f = fieldGradient(p).w;
-        f = withinPlaces(at) ? f : regionDistance(p).w;
+        float region = regionDistance(p).w;
+        f = fieldGradient(within).w;
+        f = withinPlaces(at) ? f : region;
+        f = local.x && region > 0.0 ? max(f, region / frame.stepScale) : f;
         t += max(f, 0.0) * stepScale;
     } while (f > close * t && t < end && ++i < kMostSteps);
     return float(i);

@@ -37,18 +37,26 @@ vec3 fromMiddle(vec3 p) { return (p - 0.5 * (frame.lo + frame.hi)) * 2.0 / (fram
 // What the marching of a ray asks for at each step. Read once before the loop: no compiler moves loads of uniforms out of it.
 struct Bounds {
     vec3 centre, half_, perHalf;
+    vec3 stepLo, stepHi;  // corners of the box in which stepScale holds
     float stepScale, ground;
 };
 Bounds solidBounds() {
     vec3 centre = 0.5 * (frame.lo + frame.hi), half_ = 0.5 * (frame.hi - frame.lo);
-    return Bounds(centre, half_, 1.0 / half_, frame.stepScale, frame.ground);
+    bvec3 local = bvec3(frame.localSteps != 0);
+    vec3 stepLo = mix(vec3(-1e30), frame.lo, local), stepHi = mix(vec3(1e30), frame.hi, local);
+    return Bounds(centre, half_, 1.0 / half_, stepLo, stepHi, frame.stepScale, frame.ground);
 }
+
+// The position at which the field bounds the distance from p to the solid: p itself or, if the Lipschitz constant only holds
+// within the region, the point of the region that is nearest to p. No point of the region is closer to p than to that point.
+vec3 steppingPoint(Bounds bounds, vec3 p) { return clamp(p, bounds.stepLo, bounds.stepHi); }
 
 // A distance that a ray may safely go, to the solid or the ground; inside the solid negative.
 float clearance(Bounds bounds, vec3 p) {
-    vec3 from = p - bounds.centre, q = abs(from) - bounds.half_, at = from * bounds.perHalf;
+    vec3 q = abs(p - bounds.centre) - bounds.half_;
+    vec3 within = steppingPoint(bounds, p), at = (within - bounds.centre) * bounds.perHalf;
     chooseMembers(at);
-    float region = max(q.x, max(q.y, q.z)), solid = max(fieldValue(p) * bounds.stepScale, region);
+    float region = max(q.x, max(q.y, q.z)), solid = max(fieldValue(within) * bounds.stepScale, region);
     return min(withinPlaces(at) ? solid : region, p.y - bounds.ground);
 }
 #endif

@@ -21,7 +21,7 @@ const uint kMostConeSteps = 48;
 void main() {
     fieldBegin();
     uvec2 pixel = gl_GlobalInvocationID.xy;
-    bool parallel = push.parallel != 0;
+    bool parallel = (push.flags & RENDER_PARALLEL) != 0;
     float pixels = 1.0;
 #ifdef CONES
     pixels = float(RENDER_CONE);
@@ -37,12 +37,15 @@ void main() {
     // All rays of the cone are within `wide` of its middle, or `wide` times t unless parallel.
     float wide = 1.5 * pixels * push.pixel, end = (distance(origin, centre) + distance(push.hi, centre)) / scale;
     float safe = push.stepScale, back = 1.0 / (scale + (parallel ? 0.0 : wide)), f;
+    // As steppingPoint() of solid.glsl.
+    bvec3 local = bvec3((push.flags & RENDER_LOCAL_STEPS) != 0);
+    vec3 stepLo = mix(vec3(-1e30), push.lo, local), stepHi = mix(vec3(1e30), push.hi, local);
     uint i = 0;
     do {
         float radius = parallel ? wide : wide * t;
-        vec3 p = origin + ray * t, at = (p - centre) * perHalf;
+        vec3 p = origin + ray * t, within = clamp(p, stepLo, stepHi), at = (within - centre) * perHalf;
         chooseMembers(at);
-        float solid = fieldValue(p) * safe, region = length(max(abs(at) - 1.0, 0.0) / perHalf);
+        float solid = fieldValue(within) * safe, region = length(max(abs((p - centre) * perHalf) - 1.0, 0.0) / perHalf);
         f = (withinPlaces(at) ? max(solid, region) : region) - radius;
         t += max(f, 0.0) * back;
     } while (f > 0.5 * wide * (parallel ? 1.0 : t) && t < end && ++i < kMostConeSteps);
