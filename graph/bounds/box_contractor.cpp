@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace fw {
@@ -39,6 +40,15 @@ BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters
       evaluatedIn(ir.size()),
       noted(ir.size()),
       notedIn(ir.size()) {
+    frame->isAtom.resize(ir.size());
+    evaluateEverywhere(parameters);
+    findUndefined();
+    if (std::ranges::any_of(mayBeNaN, std::identity{})) evaluateEverywhere(parameters);
+    findRotations();
+    findSplines();
+}
+
+void BoxContractor::evaluateEverywhere(std::span<const Interval> parameters) {
     for (IrId id = 0; id < ir.size(); ++id) {
         const IrNode& node = ir[id];
         if (id < 3 || node.op == Op::column)
@@ -52,10 +62,6 @@ BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters
         if (!std::isfinite(current[id].lo) || !std::isfinite(current[id].hi)) current[id] = kEverything;
     }
     everywhere = current;
-    frame->isAtom.resize(ir.size());
-    findUndefined();
-    findRotations();
-    findSplines();
 }
 
 Interval BoxContractor::evaluate(IrId id) const {
@@ -64,7 +70,12 @@ Interval BoxContractor::evaluate(IrId id) const {
     Interval operands[kMaxArity];
     const OpInfo& info = opInfo(node.op);
     for (int i = 0; i < info.arity; ++i) operands[i] = current[node.operands[std::size_t(i)]];
-    return info.interval(operands, samplesLayer(node.op) ? ir.layer(node) : SampledLayer{});
+    Interval result = info.interval(operands, samplesLayer(node.op) ? ir.layer(node) : SampledLayer{});
+    // The other operand, where one is NaN.
+    if (node.op == Op::minimum || node.op == Op::maximum)
+        for (const std::size_t i : {0, 1})
+            if (mayBeNaN[node.operands[i]]) result = hull(result, operands[1 - i]);
+    return result;
 }
 
 Box BoxContractor::variableBox() const {

@@ -182,6 +182,18 @@ class BoxContractor {
     std::optional<Box> reachSelected(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachLeaf(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachFromOutside(const Goal& goal, const Box& box, int depth);
+    std::optional<Box> boundFromOutside(const Goal& goal, int depth);
+    void extendToLimits(Box& box) const;
+    /// The part of `box` within what bound() returned for the goal. It is called once for each goal, unless
+    /// it ran out of steps, and bounds the goal in all of space.
+    template <class Bound>
+    std::optional<Box> once(KnownGoals& known, const Goal& goal, const Box& box, const Bound& bound) {
+        const std::tuple key{goal.id, goal.above, goal.level, rules};
+        auto found = known.find(key);
+        const std::optional<Box> all = found == known.end() ? bound() : found->second;
+        if (found == known.end() && !isSpent()) known.emplace(key, all);
+        return all ? common(*all, box) : std::nullopt;
+    }
     bool isSeenFarAway(const Goal& goal, const Box& box, int samples);
     bool isUnreachable(const Goal& goal, const Box& box, int splits, int depth);
     std::optional<Box> reachCondition(IrId id, bool truth, const Box& box, int depth);
@@ -217,6 +229,7 @@ class BoxContractor {
     bool projectSplines(IrId id);
     std::size_t boundedCount(std::span<const IrId> cone) const;
     bool solveLinear(std::span<const IrId> cone, std::span<const Replacement> replacements, bool& narrowed);
+    void evaluateEverywhere(std::span<const Interval> parameters);
     void findUndefined();
     void findRotations();
     void findSplines();

@@ -22,15 +22,9 @@ constexpr int kSmallestCorner = -16, kLargestCorner = 16, kCornerBisections = 4;
 /// Bounds the goal by the values that its expression is a function of.
 std::optional<Box> BoxContractor::reachThroughCuts(const Goal& goal, const Box& box, int depth) {
     if (goal.id < 3 || isVariable(goal.id)) return box;
-    const std::tuple key{goal.id, goal.above, goal.level, rules};
-    Frame& here = *frame;
-    if (!here.throughCuts.contains(key)) {
-        const std::optional<Box> found =
-            rules == Rules::all ? boundThroughCuts(goal, depth) : boundThroughOneCut(goal, depth);
-        here.throughCuts[key] = found;
-    }
-    const std::optional<Box>& known = here.throughCuts[key];
-    return known ? common(*known, box) : std::nullopt;
+    return once(frame->throughCuts, goal, box, [&] {
+        return rules == Rules::all ? boundThroughCuts(goal, depth) : boundThroughOneCut(goal, depth);
+    });
 }
 
 std::optional<Box> BoxContractor::boundThroughOneCut(const Goal& goal, int depth) {

@@ -327,12 +327,11 @@ void BoxContractor::findUndefined() {
         const auto mayBeZero = [&](int i) {
             return isFlat[operand(i)] && everywhere[operand(i)].contains(0.0);
         };
-        bool allFlat = true, anyFlat = false, anyNaN = false, allNaN = arity > 0;
+        bool allFlat = true, anyFlat = false, anyNaN = false;
         for (int i = 0; i < arity; ++i) {
             allFlat = allFlat && isFlat[operand(i)];
             anyFlat = anyFlat || isFlat[operand(i)];
             anyNaN = anyNaN || mayBeNaN[operand(i)];
-            allNaN = allNaN && mayBeNaN[operand(i)];
         }
         mayBeNaN[id] = anyNaN;
         switch (node.op) {
@@ -353,18 +352,16 @@ void BoxContractor::findUndefined() {
             case Op::arcTangent:
             case Op::arcTangent2:
             case Op::add:
-            case Op::subtract:
+            case Op::subtract: isFlat[id] = allFlat; break;
+            // Gradients across a coordinate that does not vary are 0 along others.
             case Op::gradientNoise:
             case Op::simplexNoise:
             case Op::worleyNoise:
-            case Op::cellWall: isFlat[id] = allFlat; break;
+            case Op::cellWall: isFlat[id] = anyFlat; break;
             case Op::multiply: isFlat[id] = allFlat || mayBeZero(0) || mayBeZero(1); break;
             case Op::squareRoot: isFlat[id] = allFlat || everywhere[operand(0)].lo < 0.0; break;
             case Op::minimum:
-            case Op::maximum:
-                isFlat[id] = anyFlat;
-                mayBeNaN[id] = allNaN;
-                break;
+            case Op::maximum:  // of which some implementations return NaN if one operand is
             case Op::smoothMinimum: isFlat[id] = anyFlat; break;
             case Op::select:
                 isFlat[id] = true;

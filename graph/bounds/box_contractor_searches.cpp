@@ -23,33 +23,40 @@ constexpr int kMaxTrimSplits = 12;
 
 /// Proves the shells around the origin free of the goal, from kFarthest inwards.
 std::optional<Box> BoxContractor::reachFromOutside(const Goal& goal, const Box& box, int depth) {
-    const std::tuple key{goal.id, goal.above, goal.level, Rules::thorough};
-    Frame& here = *frame;
-    if (!here.fromOutside.contains(key)) {
-        std::optional<Box> known = kAllSpace;
-        // The search covers all of space, because its result is used for other boxes too.
-        std::optional<Box> outer =
-            propagate({{goal.id, wantedBy(goal.above, goal.level)}}, frame->limits, depth + 1, Effort::quick);
-        shellLimit = stepCount + kShellSteps;
-        double farthest = 0.0;
-        for (std::size_t axis = 0; axis < frame->count; ++axis)
-            farthest = std::max({farthest, -frame->limits.lo[axis], frame->limits.hi[axis]});
-        bool isFree = !outer || !isSeenFarAway(goal, *outer, kShellSamples);
-        bool isBoundedByShells = !outer;
-        for (double size = farthest / kShellRatio; isFree && outer && size > kSmallestShell;
-             size /= kShellRatio) {
-            const std::optional<Box> inner = common(*outer, cubeAround(size));
-            if (inner == outer) continue;
-            for (const Box& slab : boxesAround(*outer, inner))
-                isFree = isFree && isUnreachable(goal, slab, kMaxShellSplits, depth);
-            if (isFree) outer = inner, isBoundedByShells = true;
-        }
-        if (isBoundedByShells && outer) trim(goal, *outer, depth);
-        if (isBoundedByShells) known = outer;
-        here.fromOutside[key] = known;
+    return once(frame->fromOutside, goal, box, [&] { return boundFromOutside(goal, depth); });
+}
+
+std::optional<Box> BoxContractor::boundFromOutside(const Goal& goal, int depth) {
+    std::optional<Box> outer =
+        propagate({{goal.id, wantedBy(goal.above, goal.level)}}, frame->limits, depth + 1, Effort::quick);
+    if (!outer) return std::nullopt;
+    if (isSeenFarAway(goal, *outer, kShellSamples)) return kAllSpace;
+    shellLimit = stepCount + kShellSteps;
+    double farthest = 0.0;
+    for (std::size_t axis = 0; axis < frame->count; ++axis)
+        farthest = std::max({farthest, -frame->limits.lo[axis], frame->limits.hi[axis]});
+    bool isFound = false, isFree = true;
+    for (double size = farthest / kShellRatio; isFree && outer && size > kSmallestShell;
+         size /= kShellRatio) {
+        const std::optional<Box> inner = common(*outer, cubeAround(size));
+        if (inner == outer) continue;
+        for (const Box& slab : boxesAround(*outer, inner))
+            isFree = isFree && isUnreachable(goal, slab, kMaxShellSplits, depth);
+        if (isFree) outer = inner, isFound = true;
     }
-    const std::optional<Box>& known = here.fromOutside[key];
-    return known ? common(*known, box) : std::nullopt;
+    if (!isFound) return kAllSpace;
+    if (outer) trim(goal, *outer, depth);
+    if (outer) extendToLimits(*outer);
+    return outer;
+}
+
+/// Opens the sides of a box that are where the search began.
+void BoxContractor::extendToLimits(Box& box) const {
+    const Box ranges = rangesOfVariables();
+    for (std::size_t i = 0; i < frame->count; ++i) {
+        if (box.lo[i] <= frame->limits.lo[i]) box.lo[i] = ranges.lo[i];
+        if (box.hi[i] >= frame->limits.hi[i]) box.hi[i] = ranges.hi[i];
+    }
 }
 
 /// Takes slabs off the box's faces in which the goal cannot be met.

@@ -11,6 +11,8 @@ namespace fw {
 
 namespace {
 
+/// Parts with a longer side are searched shell by shell, too.
+constexpr double kLongestPart = 4.0 * kFarthest;
 constexpr double kPartShellRatio = 4.0;  // of a shell's outer and inner size
 constexpr double kSmallestPartShell = 1.0 / 1024.0;
 constexpr int kMaxPartSplits = 24;
@@ -107,13 +109,15 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
     std::vector<BoxContractor::Part> parts = contractor.parts(distance);
     std::optional<ShellSearch> shells;
     for (std::size_t i = 0; i < parts.size();) {
-        if (isBounded(parts[i].box)) {
+        if (isBounded(parts[i].box) && longestSide(parts[i].box) <= kLongestPart) {
             ++i;
             continue;
         }
         if (!shells) shells.emplace(ir, distance, parameters, lipschitz, contractor, stop);
         Region region = shells->bound(parts[i].root, parts[i].box);
-        if (region.extent == Extent::unproven) {
+        if (region.extent == Extent::unproven && isBounded(parts[i].box)) {
+            region = {Extent::bounded, parts[i].box, {}};
+        } else if (region.extent == Extent::unproven) {
             const std::optional<Box> box =
                 contractor.contractExhaustively(parts[i].root, 0.0, parts[i].box, kExhaustiveSteps);
             if (!box)
