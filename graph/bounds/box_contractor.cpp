@@ -26,11 +26,12 @@ Interval rangeOfConstant(double number) {
 
 }  // namespace
 
-bool isBounded(const Box& box) {
+bool isFinite(const Box& box) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (!isBounded(sideOf(box, axis))) return false;
     return true;
 }
+bool isBounded(const Box& box) { return isFinite(box) && longestSide(box) <= kLongestSide; }
 
 BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters)
     : ir(ir_),

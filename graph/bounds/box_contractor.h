@@ -58,8 +58,11 @@ inline constexpr double kFarthest = 65536.0;
 
 /// All of space; its ends stand for infinity, as those of intervals.
 inline constexpr Box kAllSpace{{-kHuge, -kHuge, -kHuge}, {kHuge, kHuge, kHuge}};
-/// Whether no side of the box is at infinity.
+/// Whether no side of the box is at infinity; and whether it is also of a size that solids have. Bounds that
+/// are finite only because numbers are rounded are longer.
+bool isFinite(const Box& box);
 bool isBounded(const Box& box);
+inline constexpr double kLongestSide = 1e12;  ///< of bounded boxes
 inline Interval sideOf(const Box& box, std::size_t axis) { return {box.lo[axis], box.hi[axis]}; }
 
 class BoxContractor {

@@ -11,13 +11,11 @@ namespace fw {
 
 namespace {
 
-/// Parts with a longer side are searched shell by shell, too.
-constexpr double kLongestPart = 4.0 * kFarthest;
 constexpr double kPartShellRatio = 4.0;  // of a shell's outer and inner size
 constexpr double kSmallestPartShell = 1.0 / 1024.0;
 constexpr int kMaxPartSplits = 24;
 constexpr std::size_t kPartSteps = 300'000;  // of operations on intervals, for one part
-constexpr std::size_t kContractionSteps = 10'000'000, kExhaustiveSteps = 5'000'000;
+constexpr std::size_t kContractionSteps = 15'000'000, kExhaustiveSteps = 7'000'000;
 
 /// Bounds a part that the contractor alone does not bound.
 class ShellSearch {
@@ -109,20 +107,18 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
     std::vector<BoxContractor::Part> parts = contractor.parts(distance);
     std::optional<ShellSearch> shells;
     for (std::size_t i = 0; i < parts.size();) {
-        if (isBounded(parts[i].box) && longestSide(parts[i].box) <= kLongestPart) {
+        if (isBounded(parts[i].box)) {
             ++i;
             continue;
         }
         if (!shells) shells.emplace(ir, distance, parameters, lipschitz, contractor, stop);
         Region region = shells->bound(parts[i].root, parts[i].box);
-        if (region.extent == Extent::unproven && isBounded(parts[i].box)) {
-            region = {Extent::bounded, parts[i].box, {}};
-        } else if (region.extent == Extent::unproven) {
+        if (region.extent == Extent::unproven) {
             const std::optional<Box> box =
                 contractor.contractExhaustively(parts[i].root, 0.0, parts[i].box, kExhaustiveSteps);
             if (!box)
                 region = {Extent::empty, {}, {}};
-            else if (isBounded(*box))
+            else if (isFinite(*box))
                 region = {Extent::bounded, *box, {}};
         }
         if (region.extent == Extent::unbounded || region.extent == Extent::unproven) return region;
