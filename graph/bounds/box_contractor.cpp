@@ -12,6 +12,7 @@ namespace {
 constexpr int kMaxRounds = 4;     // forwards and backwards through one cone
 constexpr int kMaxCaseDepth = 3;  // of nested cases
 constexpr int kMaxRepeats = 4;
+constexpr int kMaxCuts = 4;               // of nested frames
 constexpr double kWorthRepeating = 0.95;  // of a side
 constexpr std::size_t kMaxReplacements = 4;
 /// Steps that the cases within one cone may cost.
@@ -127,9 +128,16 @@ std::optional<Box> BoxContractor::contractThoroughly(IrId root, double level, co
 
 std::optional<Box> BoxContractor::contractExhaustively(IrId root, double level, const Box& box,
                                                        std::size_t steps) {
-    const std::size_t limit = std::exchange(stepLimit, std::min(stepLimit, stepCount + steps));
-    const std::optional<Box> left = contractBy(Rules::all, {root, false, level}, box);
-    stepLimit = limit;
+    const std::size_t wholeLimit = stepLimit;
+    std::optional<Box> left = box;
+    // Iterative deepening: what few frames bound is found before many are tried.
+    for (int cuts = 1; cuts <= kMaxCuts && left && !isBounded(*left); ++cuts) {
+        cutsLeft = cuts;
+        stepLimit = std::min(wholeLimit, stepCount + (steps >> (kMaxCuts + 1 - std::max(cuts, 2))));
+        left = contractBy(Rules::all, {root, false, level}, *left);
+    }
+    cutsLeft = 0;
+    stepLimit = wholeLimit;
     return left && isBounded(*left) ? repeat({root, false, level}, *left) : left;
 }
 

@@ -23,14 +23,19 @@
 //   Terms of linear combinations that are piecewise linear, as |x|, are replaced by each of their pieces: so
 //   mirrored solids are bounded.
 // * Where three values stand between a part of the expression and the position, as the coordinates of a moved
-//   solid do (frame_cut.h), that part is bounded in their space first; then the three are.
+//   solid do (frame_cut.h), that part is bounded in their space first; then the three are. Such values may
+//   also be linear forms of the position, of which others are combinations, or replace only some coordinates.
+//   Frames nest: contractExhaustively() tries one, then two, up to four within each other.
+// * A blend of any form is taken apart by its operands: where its intervals prove a quadrant a > c, b > c
+// free,
+//   a <= c or b <= c holds elsewhere.
 // * What is still unbounded is proven empty from kFarthest inwards, shell by shell: so solids of polynomials
 //   are bounded. Beyond kFarthest nothing is known of these.
 //
-// Points where f is not a number are outside, as for the mesher. A minimum is taken to ignore an operand that
-// is NaN, as IEEE 754's minNum does, and a comparison with NaN is false; so nothing is concluded there from
-// operands that may be NaN in some volume of space, as 0 / max(x, 0) is. Single points and surfaces where a
-// field is NaN hold no solid.
+// Points where f is not a number are outside, as for the mesher. A minimum with an operand that is NaN may be
+// the other operand or NaN, and a comparison with NaN is false; so nothing is concluded there from operands
+// that may be NaN in some volume of space, as 0 / max(x, 0) is. Single points and surfaces where a field is
+// NaN hold no solid.
 //
 // Lifetime: belongs to one thread and one Ir, which must outlive it.
 #pragma once
@@ -138,7 +143,7 @@ class BoxContractor {
     };
 
     /// Goals that were bounded before, with their boxes; nothing where no point meets the goal.
-    using KnownGoals = std::map<std::tuple<IrId, bool, double, Rules>, std::optional<Box>>;
+    using KnownGoals = std::map<std::tuple<IrId, bool, double, int>, std::optional<Box>>;
     /// What expressions are read as functions of: the position, or values that stand between it and them.
     struct Frame {
         std::array<IrId, 3> variables{0, 1, 2};
@@ -151,7 +156,7 @@ class BoxContractor {
         KnownGoals throughCuts = {}, fromOutside = {};
     };
 
-    /// Values that may become the variables of a frame. Empty: there are none.
+    /// Values that may become the variables of a frame; empty if no such values exist.
     struct Cut {
         std::vector<IrId> values;
         std::map<IrId, LinearForm> derived = {};  ///< Frame
@@ -178,7 +183,7 @@ class BoxContractor {
     void deriveLinear(const Goal& goal);
     std::span<const IrId> variables() const { return std::span(frame->variables).first(frame->count); }
     bool isFunctionOfVariables(IrId id);
-    /// Of the variables over all of space.
+    /// The variables' ranges over all of space.
     Box rangesOfVariables() const;
     std::optional<Box> reachAny(const Goal& goal, const Box& box, int depth);
     std::optional<Box> reachAll(const Goal& goal, const Box& box, int depth);
@@ -190,8 +195,9 @@ class BoxContractor {
     /// The part of `box` within what bound() returned for the goal. It is called once for each goal, unless
     /// it ran out of steps, and bounds the goal in all of space.
     template <class Bound>
-    std::optional<Box> once(KnownGoals& known, const Goal& goal, const Box& box, const Bound& bound) {
-        const std::tuple key{goal.id, goal.above, goal.level, rules};
+    std::optional<Box> once(KnownGoals& known, const Goal& goal, int effort, const Box& box,
+                            const Bound& bound) {
+        const std::tuple key{goal.id, goal.above, goal.level, effort};
         auto found = known.find(key);
         const std::optional<Box> all = found == known.end() ? bound() : found->second;
         if (found == known.end() && !isSpent()) known.emplace(key, all);
@@ -275,6 +281,7 @@ class BoxContractor {
     std::unordered_map<IrId, SplineUse> splines;        ///< by the smallest id of its channels
     int caseDepth = 0;                                  ///< of nested cases that backwards() may go through
     Rules rules = Rules::simple;                        ///< of reach()
+    int cutsLeft = 0;                                   ///< of nested frames that Rules::all may enter
     std::size_t shellLimit = 0;                         ///< of stepCount, for the shells at hand
     std::size_t caseLimit = 0;                          ///< of stepCount, after which no more cases are tried
     std::size_t stepCount = 0, stepLimit = SIZE_MAX;

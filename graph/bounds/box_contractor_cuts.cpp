@@ -22,7 +22,7 @@ constexpr int kSmallestCorner = -16, kLargestCorner = 16, kCornerBisections = 4;
 /// Bounds the goal by the values that its expression is a function of.
 std::optional<Box> BoxContractor::reachThroughCuts(const Goal& goal, const Box& box, int depth) {
     if (goal.id < 3 || isVariable(goal.id)) return box;
-    return once(frame->throughCuts, goal, box, [&] {
+    return once(frame->throughCuts, goal, rules == Rules::all ? cutsLeft : -1, box, [&] {
         return rules == Rules::all ? boundThroughCuts(goal, depth) : boundThroughOneCut(goal, depth);
     });
 }
@@ -34,7 +34,7 @@ std::optional<Box> BoxContractor::boundThroughOneCut(const Goal& goal, int depth
 
 /// A box around all of space that meets the goal.
 std::optional<Box> BoxContractor::boundThroughCuts(const Goal& goal, int depth) {
-    if (isSeenFarAway(goal, frame->limits, kFarSamples)) return kAllSpace;
+    if (cutsLeft == 0 || isSeenFarAway(goal, frame->limits, kFarSamples)) return kAllSpace;
     std::optional<Box> left = kAllSpace;
     std::set<std::vector<IrId>> tried{{}};
     const auto isOpen = [&] { return left && !isBounded(*left) && !isSpent(); };
@@ -76,8 +76,8 @@ BoxContractor::Cut BoxContractor::vertexCut(const Goal& goal, std::span<const Ir
     })};
 }
 
-/// Values that are linear in the variables and on which the goal depends alone: of a solid that was turned
-/// and then distorted its own coordinates, although others are sums of them.
+/// Values that are linear in the variables and determine the goal. A solid that was turned and then distorted
+/// has its own coordinates for them, although others are sums of them.
 BoxContractor::Cut BoxContractor::linearCut(const Goal& goal) {
     const std::vector<IrId> cone = coneOf(std::array{Constraint{goal.id, {}}});
     stepCount += cone.size();
@@ -186,19 +186,30 @@ std::optional<Box> BoxContractor::boundInSpaceOf(const Cut& cut, const Goal& goa
     if (found && !isBounded(*found)) found = reach(goal, *found, depth + 1);
     if (outerRules == Rules::all && found && !isBounded(*found)) {
         rules = Rules::all;
+        --cutsLeft;
         found = reach(goal, *found, depth + 1);
+        ++cutsLeft;
         rules = Rules::simple;
     }
     shellLimit = outerLimit;
     frame = outer;
-    rangeGeneration = outerGeneration;
     if (found) {
         std::vector<Constraint> ranges;
         for (std::size_t i = 0; i < cut.values.size(); ++i)
             ranges.push_back({cut.values[i], sideOf(*found, i)});
-        found = propagate(std::move(ranges), kAllSpace, depth + 1);
+        found = propagate(ranges, kAllSpace, depth + 1);
+        rules = outerRules;
+        // Each range is also a goal.
+        for (const Constraint& range : ranges) {
+            const bool isNew = rules == Rules::all && !isVariable(range.id) && found && !isBounded(*found);
+            if (isNew && range.range.hi < everywhere[range.id].hi)
+                found = reach({range.id, false, range.range.hi}, *found, depth + 1);
+            if (isNew && found && range.range.lo > everywhere[range.id].lo)
+                found = reach({range.id, true, range.range.lo}, *found, depth + 1);
+        }
     }
     rules = outerRules;
+    rangeGeneration = outerGeneration;
     return found;
 }
 

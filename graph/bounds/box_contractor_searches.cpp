@@ -23,7 +23,7 @@ constexpr int kMaxTrimSplits = 12;
 
 /// Proves the shells around the origin free of the goal, from kFarthest inwards.
 std::optional<Box> BoxContractor::reachFromOutside(const Goal& goal, const Box& box, int depth) {
-    return once(frame->fromOutside, goal, box, [&] { return boundFromOutside(goal, depth); });
+    return once(frame->fromOutside, goal, 0, box, [&] { return boundFromOutside(goal, depth); });
 }
 
 std::optional<Box> BoxContractor::boundFromOutside(const Goal& goal, int depth) {

@@ -14,7 +14,7 @@
 
 namespace fw {
 
-/// Of several smallest cuts: the one next to the variables, or the one next to the root.
+/// Selects one of several smallest cuts: that next to the variables, or that next to the root.
 enum class CutSide : unsigned char { variables, root };
 
 /// At most three values of the cone, without its last one, through which all paths from that one to the

@@ -33,8 +33,8 @@ struct LinearForm {
 /// a + factorOfB * b.
 LinearForm sum(const LinearForm& a, const LinearForm& b, double factorOfB);
 
-/// The range of a form over intervals of its atoms, and what a range of the form leaves of one of them. The
-/// factors may be rounded: both are widened for that.
+/// rangeOver() is the range of a form over intervals of its atoms; solveForTerm() is the range of one atom
+/// for a range of the form. The factors may be rounded: both are widened for that.
 Interval rangeOver(const LinearForm& form, std::span<const Interval> atoms);
 Interval solveForTerm(const LinearForm& form, IrId atom, Interval range, std::span<const Interval> atoms);
 

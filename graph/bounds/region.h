@@ -4,7 +4,8 @@
 //    backwards through its expression from all of space (box_contractor.h). A ball far away is bounded no
 //    matter how distorted the solid next to it is.
 // 2. A part that this cannot bound is proven empty shell by shell, from kFarthest inwards, by the field's
-//    Lipschitz constant and by contracting cells of the shells.
+//    Lipschitz constant and by contracting cells of the shells. What shells do not bound is contracted by all
+//    rules.
 // 3. The hull of all parts is refined by intervals over cells (hull_refinement.h).
 //
 // Nothing is known by samples, with one exception: points inside the solid at kFarthest tell "unbounded" from

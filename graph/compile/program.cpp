@@ -46,14 +46,6 @@ Region findRegion(const Program& program, std::stop_token stop) {
                       std::move(stop));
 }
 
-Exactness exactnessWithin(const Program& program, const Box& box) {
-    Exactness exactness = program.exactness;
-    if (exactness.bound()) return exactness;
-    const Tape tape = makeTape(program.ir, program.distance(), program.parameters());
-    exactness.lipschitz = std::min(exactness.lipschitz, lipschitzOver(tape, box, int(kMaxLipschitzParts)));
-    return exactness;
-}
-
 double lipschitzWithin(const Program& program, const Box& box, std::size_t maxSteps) {
     double constant = program.exactness.lipschitz;
     if (std::isfinite(constant)) return constant;

@@ -75,10 +75,6 @@ struct Program {
 /// The region of the program's solid with its present live values. `stop`: as of region.h.
 Region findRegion(const Program& program, std::stop_token stop = {});
 
-/// The exactness within a box, its live values as they are: as declared, with the Lipschitz constant that
-/// interval differentiation proves there (local_lipschitz.h) where that is smaller. Takes milliseconds.
-Exactness exactnessWithin(const Program& program, const Box& box);
-
 /// Steps of tapes that a search for a Lipschitz constant evaluates at most: of about 50 ms and of 1 ms.
 inline constexpr std::size_t kThoroughSteps = 500'000, kQuickSteps = 8'000;
 

@@ -219,7 +219,7 @@ bool expectSound(const Field& field, Source& source, int boxes, int samples) {
         BoxContractor fresh(field.ir, field.parameters);
         fresh.setLimit(20'000'000);
         const std::optional<Box> result = contract(fresh);
-        // The limit of an exhaustive call reaches further with what is known from calls before.
+        // A reused contractor remembers bounds, so the limit of an exhaustive call reaches further.
         if (reused.steps() < 20'000'000 && kind != Call::exhaustive) {
             EXPECT_TRUE(result == again) << field.name << "\n"
                                          << call << " of " << text(box) << " at level " << level << ": fresh "

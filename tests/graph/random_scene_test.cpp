@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "graph/language/lower.h"
+#include "tests/support/graph/code_field.h"
 #include "tests/support/graph/random_scene.h"
 #include "tests/support/graph/solid_bounds.h"
 
@@ -13,13 +13,8 @@ namespace fw::random_scene_test {
 using test::SolidBounds;
 
 SolidBounds boundsOf(const std::string& code, std::vector<test::SceneAnchor> anchors) {
-    language::Lowering state;
-    state.time = state.ir.constant(0.0);
-    const auto value = language::lowerText(state, code);
-    EXPECT_TRUE(value) << format(value.error());
-    std::array<IrId, 1> root{value->ids[0]};
-    const Ir ir = state.ir.compact(root);
-    return test::sampleSolid(ir, root[0], {}, anchors, std::nullopt);
+    const test::CodeField field = test::fieldOfCode(code);
+    return test::sampleSolid(field.ir, field.distance, {}, anchors, std::nullopt);
 }
 
 /// The sampled box is within the true one, and at most `slack` smaller on each side.

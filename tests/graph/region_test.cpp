@@ -6,18 +6,13 @@
 #include <random>
 
 #include "graph/bounds/region.h"
-#include "graph/language/lower.h"
+#include "tests/support/graph/code_field.h"
 
 namespace fw::region_test {
 
 Region regionOf(const std::string& code, double lipschitz = std::numeric_limits<double>::infinity()) {
-    language::Lowering state;
-    state.time = state.ir.constant(0.0);
-    const auto value = language::lowerText(state, code);
-    EXPECT_TRUE(value) << format(value.error());
-    std::array<IrId, 1> root{value->ids[0]};
-    const Ir ir = state.ir.compact(root);
-    return findRegion(ir, root[0], {}, lipschitz);
+    const test::CodeField field = test::fieldOfCode(code);
+    return findRegion(field.ir, field.distance, {}, lipschitz);
 }
 
 void expectBounds(const std::string& code, Point lo, Point hi, double slack) {
@@ -48,6 +43,29 @@ TEST(Region, OfSolidsWhoseHalfSpacesProveLittle) {
         {-r * 1.01, -0.5, -r * 1.01}, {r * 1.01, 0.5, r * 1.01}, 0.3);
     expectBounds("return twist(box(p, vec3(0.5, 1, 0.5)), 90);", {-0.5, -1, -0.5}, {0.5, 1, 0.5}, 1.1);
     expectBounds("return capped_cone(p, 0.5, 0.6, 0.25);", {-0.6, -0.5, -0.6}, {0.6, 0.5, 0.6}, 0.1);
+}
+
+TEST(Region, OfSolidsThatOnlyCutsOfCutsBound) {
+    const std::string turn =
+        "c = cos(0.7); s = sin(0.7); vec3 q = vec3(c * p.x - s * p.y, s * p.x + c * p.y, p.z); "
+        "q = vec3(q.x, c * q.y - s * q.z, s * q.y + c * q.z); ";
+    const std::string bent = "vec3 b = vec3(q.x, q.y + 0.3 * q.x * q.x, q.z); ";
+    const std::string heart =
+        "a = h.x * h.x + 2.25 * h.z * h.z + h.y * h.y - 1; float f = a * a * a - h.x * h.x * h.y * h.y * h.y "
+        "- 0.1125 * h.z * h.z * h.y * h.y * h.y; ";
+    const std::string quartic = "k = dot(q, q) + 0.3; float f = k * k - 1.2 * (q.x * q.x + q.z * q.z); ";
+    const Point lo{-1.6, -1.6, -1.6}, hi{1.6, 1.6, 1.6};
+    for (const std::string& code : {
+             turn + bent + "return max(abs(b.x + b.y) - b.z, b.z + abs(b.x - b.y)) - 0.4;",
+             turn + bent + "vec3 h = b; " + heart + "return f;",
+             turn + "vec3 h = q; " + heart + "return mix(f, twist(box(p, vec3(0.3)), 60), 0.9);",
+             turn + quartic + "g = twist(box(p, vec3(0.3)), 60); return min(min(f, g), (f + g - 0.2) * 0.7);",
+         }) {
+        SCOPED_TRACE(code);
+        const Region region = regionOf(code);
+        EXPECT_EQ(region.extent, Extent::bounded);
+        EXPECT_LE(longestSide(joined(region.box, {lo, hi})), 20.0);
+    }
 }
 
 TEST(Region, OfManySolidsThatAreTurned) {
