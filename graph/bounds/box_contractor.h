@@ -32,10 +32,10 @@
 // * What is still unbounded is proven empty from kFarthest inwards, shell by shell: so solids of polynomials
 //   are bounded. Beyond kFarthest nothing is known of these.
 //
-// Points where f is not a number are outside, as for the mesher. A minimum with an operand that is NaN may be
-// the other operand or NaN, and a comparison with NaN is false; so nothing is concluded there from operands
-// that may be NaN in some volume of space, as 0 / max(x, 0) is. Single points and surfaces where a field is
-// NaN hold no solid.
+// Points where f is not a number are outside, as for the mesher. A minimum ignores a second operand that is
+// NaN, as on the CPU, and a comparison with NaN is false; so nothing is concluded there from operands that
+// may be NaN in some volume of space, as 0 / max(x, 0) is. Single points and surfaces where a field is NaN
+// hold no solid.
 //
 // Lifetime: belongs to one thread and one Ir, which must outlive it.
 #pragma once

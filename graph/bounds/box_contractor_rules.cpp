@@ -361,7 +361,10 @@ void BoxContractor::findUndefined() {
             case Op::multiply: isFlat[id] = allFlat || mayBeZero(0) || mayBeZero(1); break;
             case Op::squareRoot: isFlat[id] = allFlat || everywhere[operand(0)].lo < 0.0; break;
             case Op::minimum:
-            case Op::maximum:  // of which some implementations return NaN if one operand is
+            case Op::maximum:  // ignore a second operand that is NaN
+                isFlat[id] = anyFlat;
+                mayBeNaN[id] = mayBeNaN[operand(0)];
+                break;
             case Op::smoothMinimum: isFlat[id] = anyFlat; break;
             case Op::select:
                 isFlat[id] = true;

@@ -27,7 +27,7 @@ namespace {
 /// Beyond these, in metres, squares of lengths leave the range of single precision.
 constexpr double kLeastCell = 1e-16, kFarthestCorner = 1e15;
 /// Views that show one content in turn. Live values rest if it is shown more often.
-constexpr int kMostViews = 4;
+constexpr int kMaxViews = 4;
 
 Error problem(std::string message) { return {.message = std::move(message)}; }
 
@@ -494,7 +494,7 @@ double Session::stepConstant(Quality quality) {
     const bool sameContent = liveContent == content;
     liveFrames = sameContent ? liveFrames + 1 : 0;
     const double constant =
-        stepConstants.of(current, box, kMaxLiveConstant, current.live.empty() || liveFrames >= kMostViews);
+        stepConstants.of(current, box, kMaxLiveConstant, current.live.empty() || liveFrames >= kMaxViews);
     // A resting view is the mean of frames, which all step in the same way.
     const bool wasKnown = std::exchange(steppedByConstant, std::isfinite(constant));
     if (sameContent && wasKnown != steppedByConstant) ++content;
