@@ -13,7 +13,7 @@ namespace {
 constexpr RefinementEffort kQuick{20'000, 120'000, 18, false}, kMany{100'000, 3'000'000, 18, false},
     kMedium{50'000, 1'000'000, 18, true}, kThorough{200'000, 12'000'000, 36, true};
 constexpr std::size_t kSamples = 2048;
-constexpr double kCloseRatio = 1.15, kFairRatio = 1.3, kFairSideRatio = 1.4;
+constexpr double kCloseRatio = 1.15, kFairRatio = 1.35, kFairSideRatio = 2.0;
 
 /// A tape is simplified if at least one step in kWorthSimplifying was decided.
 constexpr std::size_t kWorthSimplifying = 16;
