@@ -178,8 +178,9 @@ class BoxContractor {
     std::optional<Box> boundInSpaceOf(const Cut& cut, const Goal& goal, int depth);
     std::optional<Box> boundByOperands(const Cut& cut, const Goal& goal, int depth);
     Frame& frameOf(const Cut& cut);
-    Cut linearCut(const Goal& goal);
-    Cut vertexCut(const Goal& goal, std::span<const IrId> some, CutSide side);
+    bool isLinear(IrId id) const;
+    Cut linearCut(std::span<const IrId> cone);
+    Cut vertexCut(std::span<const IrId> cone, std::span<const IrId> some, CutSide side);
     void deriveLinear(const Goal& goal);
     std::span<const IrId> variables() const { return std::span(frame->variables).first(frame->count); }
     bool isFunctionOfVariables(IrId id);

@@ -21,14 +21,15 @@ constexpr int kSmallestCorner = -16, kLargestCorner = 16, kCornerBisections = 4;
 
 /// Bounds the goal by the values that its expression is a function of.
 std::optional<Box> BoxContractor::reachThroughCuts(const Goal& goal, const Box& box, int depth) {
-    if (goal.id < 3 || isVariable(goal.id)) return box;
+    if (goal.id < 3 || isVariable(goal.id) || isNumber(goal.id)) return box;
     return once(frame->throughCuts, goal, rules == Rules::all ? cutsLeft : -1, box, [&] {
         return rules == Rules::all ? boundThroughCuts(goal, depth) : boundThroughOneCut(goal, depth);
     });
 }
 
 std::optional<Box> BoxContractor::boundThroughOneCut(const Goal& goal, int depth) {
-    const Cut cut = vertexCut(goal, variables(), CutSide::variables);
+    const std::vector<IrId> cone = coneOf(std::array{Constraint{goal.id, {}}});
+    const Cut cut = vertexCut(cone, variables(), CutSide::variables);
     return cut.values.empty() ? kAllSpace : boundInSpaceOf(cut, goal, depth);
 }
 
@@ -44,28 +45,32 @@ std::optional<Box> BoxContractor::boundThroughCuts(const Goal& goal, int depth) 
     const auto tryInSpaceOf = [&](const Cut& cut) {
         if (isOpen() && tried.insert(cut.values).second) narrowTo(boundInSpaceOf(cut, goal, depth));
     };
-    tryInSpaceOf(linearCut(goal));
-    const Cut nearVariables = vertexCut(goal, variables(), CutSide::variables);
+    const auto tryOperands = [&](const Cut& cut) {
+        if (isOpen() && !cut.values.empty() && cut.values.size() <= kMaxOperands)
+            narrowTo(boundByOperands(cut, goal, depth));
+    };
+    const std::vector<IrId> cone = coneOf(std::array{Constraint{goal.id, {}}});
+    tryInSpaceOf(linearCut(cone));
+    const Cut nearVariables = isOpen() ? vertexCut(cone, variables(), CutSide::variables) : Cut{};
     tryInSpaceOf(nearVariables);
     // Some variables are replaced, the others stay: {x, y + x^2, z} of a field that is bent along x.
     for (std::size_t some = 1; some + 1 < std::size_t(1) << frame->count; ++some) {
         std::vector<IrId> replaced, kept;
         for (std::size_t i = 0; i < frame->count; ++i)
             (some >> i & 1 ? replaced : kept).push_back(frame->variables[i]);
-        Cut cut = isOpen() ? vertexCut(goal, replaced, CutSide::variables) : Cut{};
+        Cut cut = isOpen() ? vertexCut(cone, replaced, CutSide::variables) : Cut{};
         if (cut.values.empty() || cut.values.size() > replaced.size()) continue;
         cut.values.insert(cut.values.end(), kept.begin(), kept.end());
         tryInSpaceOf(cut);
     }
-    for (const Cut& cut : {nearVariables, vertexCut(goal, variables(), CutSide::root)})
-        if (isOpen() && !cut.values.empty() && cut.values.size() <= kMaxOperands)
-            narrowTo(boundByOperands(cut, goal, depth));
+    tryOperands(nearVariables);
+    if (isOpen()) tryOperands(vertexCut(cone, variables(), CutSide::root));
     return left;
 }
 
-/// Values between the goal and some of the variables.
-BoxContractor::Cut BoxContractor::vertexCut(const Goal& goal, std::span<const IrId> some, CutSide side) {
-    const std::vector<IrId> cone = coneOf(std::array{Constraint{goal.id, {}}});
+/// Values between the last one of the cone and some of the variables.
+BoxContractor::Cut BoxContractor::vertexCut(std::span<const IrId> cone, std::span<const IrId> some,
+                                            CutSide side) {
     stepCount += 8 * cone.size();
     return {frameCut(cone, some, side, [&](IrId id) {
         std::vector<IrId> operands = dependenciesOf(id);
@@ -76,18 +81,19 @@ BoxContractor::Cut BoxContractor::vertexCut(const Goal& goal, std::span<const Ir
     })};
 }
 
-/// Values that are linear in the variables and determine the goal. A solid that was turned and then distorted
-/// has its own coordinates for them, although others are sums of them.
-BoxContractor::Cut BoxContractor::linearCut(const Goal& goal) {
-    const std::vector<IrId> cone = coneOf(std::array{Constraint{goal.id, {}}});
+/// Whether a variable, or a value whose form is known, is linear in the variables.
+bool BoxContractor::isLinear(IrId id) const {
+    return isVariable(id) || std::ranges::all_of(frame->forms[id].terms, [&](const LinearForm::Term& term) {
+               return isVariable(term.atom);
+           });
+}
+
+/// Values that are linear in the variables and determine the last one of the cone. A solid that was turned
+/// and then distorted has its own coordinates for them, although others are sums of them.
+BoxContractor::Cut BoxContractor::linearCut(std::span<const IrId> cone) {
     stepCount += cone.size();
     frame->forms.add(ir, cone, everywhere, frame->isAtom);
-    const auto isLinear = [&](IrId id) {
-        return isVariable(id) ||
-               std::ranges::all_of(frame->forms[id].terms,
-                                   [&](const LinearForm::Term& term) { return isVariable(term.atom); });
-    };
-    if (isLinear(goal.id)) return {};
+    if (isLinear(cone.back())) return {};
     std::vector<IrId> values;
     for (const IrId id : cone)
         if (!isLinear(id))
@@ -122,11 +128,8 @@ BoxContractor::Cut BoxContractor::linearCut(const Goal& goal) {
 void BoxContractor::deriveLinear(const Goal& goal) {
     const std::vector<IrId> cone = coneOf(std::array{Constraint{goal.id, {}}});
     frame->forms.add(ir, cone, everywhere, frame->isAtom);
-    for (const IrId id : cone) {
-        const std::vector<LinearForm::Term>& terms = frame->forms[id].terms;
-        if (std::ranges::all_of(terms, [&](const LinearForm::Term& term) { return isVariable(term.atom); }))
-            frame->derived.emplace(id, frame->forms[id]);
-    }
+    for (const IrId id : cone)
+        if (isLinear(id)) frame->derived.emplace(id, frame->forms[id]);
 }
 
 /// The frame whose variables are the values of the cut.
@@ -241,7 +244,7 @@ std::optional<Box> BoxContractor::boundByOperands(const Cut& cut, const Goal& go
         int first = kSmallestCorner, last = kLargestCorner;
         if (!isFree(std::ldexp(1.0, last))) continue;
         while (first < last) {
-            const int middle = (first + last) / 2 - (first + last < 0 && (first + last) % 2 != 0);
+            const int middle = (first + last) >> 1;
             if (isFree(std::ldexp(1.0, middle)))
                 last = middle;
             else

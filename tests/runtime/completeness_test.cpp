@@ -12,9 +12,9 @@
 #include "graph/compile/compile.h"
 #include "graph/document/json.h"
 #include "graph/evaluate/evaluate.h"
-#include "graph/language/lower.h"
 #include "runtime/measure/mesh_requirements.h"
 #include "tests/support/command.h"
+#include "tests/support/graph/code_field.h"
 #include "tests/support/graph/random_scene.h"
 #include "tests/support/graph/temp_dir.h"
 
@@ -34,13 +34,8 @@ struct Field {
 };
 
 Field fieldOf(const std::string& code) {
-    language::Lowering state;
-    state.time = state.ir.constant(0.0);
-    const auto value = language::lowerText(state, code);
-    EXPECT_TRUE(value) << format(value.error());
-    std::array<IrId, 1> root{value->ids[0]};
-    Ir ir = state.ir.compact(root);
-    return {std::move(ir), root[0]};
+    test::CodeField field = test::fieldOfCode(code);
+    return {std::move(field.ir), field.distance};
 }
 
 Box cube(double half, Point centre = {}) {

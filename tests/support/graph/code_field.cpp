@@ -9,9 +9,9 @@
 
 namespace fw::test {
 
-CodeField fieldOfCode(const std::string& code) {
+CodeField fieldOfCode(const std::string& code, double time) {
     language::Lowering state;
-    state.time = state.ir.constant(0.0);
+    state.time = state.ir.constant(time);
     const auto value = language::lowerText(state, code);
     EXPECT_TRUE(value) << format(value.error());
     std::array<IrId, 1> root{value->ids[0]};

@@ -12,7 +12,7 @@ struct CodeField {
     IrId distance;
 };
 
-/// The code at time 0. Reports a failure of the test if it does not compile.
-CodeField fieldOfCode(const std::string& code);
+/// The code at that time. Reports a failure of the test if it does not compile.
+CodeField fieldOfCode(const std::string& code, double time = 0.0);
 
 }  // namespace fw::test

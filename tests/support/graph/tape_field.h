@@ -10,7 +10,7 @@
 #include <string>
 
 #include "graph/evaluate/evaluate.h"
-#include "graph/language/lower.h"
+#include "tests/support/graph/code_field.h"
 
 namespace fw::test {
 
@@ -33,13 +33,8 @@ inline TapeField tapeField(Ir ir, IrId root, std::span<const double> parameters 
 }
 
 inline TapeField tapeField(const std::string& code) {
-    language::Lowering state;
-    state.time = state.ir.constant(0.25);
-    const auto value = language::lowerText(state, code);
-    EXPECT_TRUE(value) << format(value.error());
-    std::array<IrId, 1> root{value->ids[0]};
-    Ir ir = state.ir.compact(root);
-    return tapeField(std::move(ir), root[0]);
+    CodeField field = fieldOfCode(code, 0.25);
+    return tapeField(std::move(field.ir), field.distance);
 }
 
 /// The value at a point, the largest magnitude of an intermediate value, and a bound of the rounding errors.
