@@ -12,6 +12,8 @@ namespace {
 constexpr int kMaxRounds = 4;     // forwards and backwards through one cone
 constexpr int kMaxCaseDepth = 3;  // of nested cases
 constexpr int kMaxRepeats = 4;
+/// Shells around the origin: the first one is thin, so that solids near the farthest coordinates are bounded.
+constexpr double kFirstShellRatio = 8.0 / 7.0, kShellRatio = 4.0, kSmallestShell = 1.0 / 1024.0;
 constexpr int kMaxCuts = 4;               // of nested frames
 constexpr double kWorthRepeating = 0.95;  // of a side
 constexpr std::size_t kMaxReplacements = 4;
@@ -38,14 +40,21 @@ BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters
     : ir(ir_),
       current(ir.size()),
       mayBeNaN(ir.size()),
+      isAngular(ir.size()),
+      opposites(ir.size()),
       stamps(ir.size()),
       evaluatedIn(ir.size()),
       noted(ir.size()),
       notedIn(ir.size()) {
     frame->isAtom.resize(ir.size());
+    frame->shells = {cubeAround(kFarthest), cubeAround(kFarthest / kFirstShellRatio)};
+    for (double size = kFarthest / kShellRatio; size > kSmallestShell; size /= kShellRatio)
+        frame->shells.push_back(cubeAround(size));
     evaluateEverywhere(parameters);
     findUndefined();
     if (std::ranges::any_of(mayBeNaN, std::identity{})) evaluateEverywhere(parameters);
+    findAngles();
+    findOpposites();
     findRotations();
     findSplines();
 }
@@ -66,8 +75,31 @@ void BoxContractor::evaluateEverywhere(std::span<const Interval> parameters) {
     everywhere = current;
 }
 
+void BoxContractor::findAngles() {
+    for (IrId id = 3; id < ir.size(); ++id) {
+        const IrNode& node = ir[id];
+        const std::span operands = std::span(node.operands).first(std::size_t(opInfo(node.op).arity));
+        isAngular[id] =
+            !isNumber(id) && (node.op == Op::arcTangent2 || std::ranges::all_of(operands, [&](IrId operand) {
+                                  return isNumber(operand) || isAngular[operand];
+                              }));
+    }
+}
+
+void BoxContractor::findOpposites() {
+    std::map<std::array<IrId, 2>, IrId> differences;
+    for (IrId id = 3; id < ir.size(); ++id) {
+        const IrNode& node = ir[id];
+        if (node.op != Op::subtract || isNumber(id)) continue;
+        const auto found = differences.find({node.operands[1], node.operands[0]});
+        if (found != differences.end()) opposites[id] = found->second;
+        differences.emplace(std::array{node.operands[0], node.operands[1]}, id);
+    }
+}
+
 Interval BoxContractor::evaluate(IrId id) const {
     if (const LinearForm* form = derivedForm(id)) return rangeOver(*form, current);
+    if (opposites[id] != 0) return -current[opposites[id]];
     const IrNode& node = ir[id];
     Interval operands[kMaxArity];
     const OpInfo& info = opInfo(node.op);
@@ -189,6 +221,10 @@ std::vector<IrId> BoxContractor::coneOf(std::span<const Constraint> constraints)
         pending.pop_back();
         cone.push_back(id);
         if (derivedForm(id)) continue;
+        if (opposites[id] != 0) {
+            visit(opposites[id]);
+            continue;
+        }
         for (int i = 0; i < opInfo(ir[id].op).arity; ++i) visit(ir[id].operands[std::size_t(i)]);
     }
     std::ranges::sort(cone);
@@ -201,6 +237,7 @@ std::vector<IrId> BoxContractor::dependenciesOf(IrId id) const {
         for (const LinearForm::Term& term : form->terms) values.push_back(term.atom);
         return values;
     }
+    if (opposites[id] != 0) return {opposites[id]};
     for (int i = 0; i < opInfo(ir[id].op).arity; ++i)
         if (const IrId operand = ir[id].operands[std::size_t(i)]; isVariable(operand) || !isNumber(operand))
             values.push_back(operand);

@@ -16,6 +16,7 @@
 // * Two values that are a rotation of two others by a varying angle, x cos(a) + y sin(a) and
 //   y cos(a) - x sin(a), have the same length as those: so twisted and bent solids are bounded.
 // * The coordinates beside a spline bound the distance to it.
+// * b - a is evaluated as -(a - b) where both occur: a cut needs only one of them.
 // * Systems of linear combinations are solved for their unbounded terms (linear_forms.h): so turned solids
 //   are bounded.
 // * Where all this leaves the box unbounded, minima, maxima and choices within an expression are tried
@@ -45,8 +46,10 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "graph/base/box.h"
@@ -100,6 +103,8 @@ class BoxContractor {
     /// contract() returns the box that it was given, which is right but of no use.
     std::size_t steps() const { return stepCount; }
     void setLimit(std::size_t limit) { stepLimit = limit; }
+    /// Ends a search in the same way once a stop is requested.
+    void setStop(std::stop_token token) { stop = std::move(token); }
 
   private:
     struct Goal {
@@ -147,8 +152,10 @@ class BoxContractor {
     /// What expressions are read as functions of: the position, or values that stand between it and them.
     struct Frame {
         std::array<IrId, 3> variables{0, 1, 2};
-        std::size_t count = 3;               ///< of variables
-        Box limits = cubeAround(kFarthest);  ///< where searches over space look
+        std::size_t count = 3;  ///< of variables
+        /// Where searches over space look, from outside, each box within the one before; the first ones are
+        /// of all frames the images of the same cubes.
+        std::vector<Box> shells = {};
         /// Values that are evaluated as linear forms of the variables, in place of their operations.
         std::map<IrId, LinearForm> derived = {};
         LinearForms forms = {};
@@ -177,6 +184,8 @@ class BoxContractor {
     std::optional<Box> contractBy(Rules wanted, const Goal& goal, const Box& box);
     std::optional<Box> boundInSpaceOf(const Cut& cut, const Goal& goal, int depth);
     std::optional<Box> boundByOperands(const Cut& cut, const Goal& goal, int depth);
+    const Box& limits() const { return frame->shells.front(); }
+    std::array<Box, 2> halvesInFrame(const Box& box) const;
     Frame& frameOf(const Cut& cut);
     bool isLinear(IrId id) const;
     Cut linearCut(std::span<const IrId> cone);
@@ -241,6 +250,8 @@ class BoxContractor {
     bool solveLinear(std::span<const IrId> cone, std::span<const Replacement> replacements, bool& narrowed);
     void evaluateEverywhere(std::span<const Interval> parameters);
     void findUndefined();
+    void findAngles();
+    void findOpposites();
     void findRotations();
     void findSplines();
     /// The operations that depend on the position, up to those of the constraints, ascending.
@@ -263,12 +274,14 @@ class BoxContractor {
     void setVariables(const Box& box);
     /// Whether current[id] belongs to the cone at hand.
     bool isCurrent(IrId id) const { return isNumber(id) || isVariable(id) || evaluatedIn[id] == evaluation; }
-    bool isSpent() const { return stepCount > stepLimit; }
+    bool isSpent() const { return stepCount > stepLimit || stop.stop_requested(); }
 
     const Ir& ir;
     std::vector<Interval> everywhere;  ///< of each operation, over all of space
     std::vector<Interval> current;     ///< over the box at hand, where the constraints hold
     std::vector<bool> mayBeNaN;        ///< in some volume of space
+    std::vector<bool> isAngular;       ///< functions of angles (atan2) alone, which bound no coordinate
+    std::vector<IrId> opposites;       ///< of b - a: a - b, if that has a smaller id; else 0
     std::vector<uint32_t> stamps;
     uint32_t stamp = 0;
     std::vector<uint32_t> evaluatedIn;  ///< of each operation: the last evaluation of a cone that had it
@@ -286,6 +299,7 @@ class BoxContractor {
     std::size_t shellLimit = 0;                         ///< of stepCount, for the shells at hand
     std::size_t caseLimit = 0;                          ///< of stepCount, after which no more cases are tried
     std::size_t stepCount = 0, stepLimit = SIZE_MAX;
+    std::stop_token stop;
 };
 
 }  // namespace fw

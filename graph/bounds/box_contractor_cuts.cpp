@@ -35,7 +35,7 @@ std::optional<Box> BoxContractor::boundThroughOneCut(const Goal& goal, int depth
 
 /// A box around all of space that meets the goal.
 std::optional<Box> BoxContractor::boundThroughCuts(const Goal& goal, int depth) {
-    if (cutsLeft == 0 || isSeenFarAway(goal, frame->limits, kFarSamples)) return kAllSpace;
+    if (cutsLeft == 0 || isSeenFarAway(goal, limits(), kFarSamples)) return kAllSpace;
     std::optional<Box> left = kAllSpace;
     std::set<std::vector<IrId>> tried{{}};
     const auto isOpen = [&] { return left && !isBounded(*left) && !isSpent(); };
@@ -72,13 +72,14 @@ std::optional<Box> BoxContractor::boundThroughCuts(const Goal& goal, int depth) 
 BoxContractor::Cut BoxContractor::vertexCut(std::span<const IrId> cone, std::span<const IrId> some,
                                             CutSide side) {
     stepCount += 8 * cone.size();
-    return {frameCut(cone, some, side, [&](IrId id) {
+    const auto operandsOf = [&](IrId id) {
         std::vector<IrId> operands = dependenciesOf(id);
         std::erase_if(operands, [&](IrId operand) {
             return isVariable(operand) && std::ranges::find(some, operand) == some.end();
         });
         return operands;
-    })};
+    };
+    return {frameCut(cone, some, side, operandsOf, [&](IrId id) { return !isAngular[id]; })};
 }
 
 /// Whether a variable, or a value whose form is known, is linear in the variables.
@@ -140,6 +141,9 @@ BoxContractor::Frame& BoxContractor::frameOf(const Cut& cut) {
         if (inner.derived.emplace(id, form).second) inner.forms.set(id, form);
     };
     for (const auto& [id, form] : cut.derived) derive(id, form);
+    for (IrId id = 3; id < ir.size(); ++id)
+        if (opposites[id] != 0 && std::ranges::find(cut.values, opposites[id]) != cut.values.end())
+            derive(id, {.terms = {{opposites[id], -1.0}}, .constant = 0.0});
     // Variables that stay keep the forms of them.
     for (const auto& [id, form] : frame->derived)
         if (std::ranges::find(cut.values, id) == cut.values.end() &&
@@ -150,15 +154,19 @@ BoxContractor::Frame& BoxContractor::frameOf(const Cut& cut) {
     if (!isNew) return inner;
     inner.count = cut.values.size();
     inner.isAtom = frames.begin()->second.isAtom;
-    setVariables(frame->limits);
+    std::ranges::copy(cut.values, inner.variables.begin());
     std::vector<Constraint> unconstrained;
-    for (const IrId id : cut.values) unconstrained.push_back({id, kEverything});
-    forwards(coneOf(unconstrained), false);
-    inner.limits = {};
-    for (std::size_t i = 0; i < cut.values.size(); ++i) {
-        inner.variables[i] = cut.values[i];
-        inner.isAtom[cut.values[i]] = true;
-        inner.limits.lo[i] = current[cut.values[i]].lo, inner.limits.hi[i] = current[cut.values[i]].hi;
+    for (const IrId id : cut.values) {
+        inner.isAtom[id] = true;
+        unconstrained.push_back({id, kEverything});
+    }
+    const std::vector<IrId> cone = coneOf(unconstrained);
+    for (const Box& shell : frame->shells) {
+        setVariables(shell);
+        forwards(cone, false);
+        Box& image = inner.shells.emplace_back();
+        for (std::size_t i = 0; i < cut.values.size(); ++i)
+            image.lo[i] = current[cut.values[i]].lo, image.hi[i] = current[cut.values[i]].hi;
     }
     return inner;
 }

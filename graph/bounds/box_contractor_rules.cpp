@@ -215,6 +215,7 @@ bool BoxContractor::projectDerived(IrId id, const LinearForm& form) {
 
 bool BoxContractor::projectNode(IrId id) {
     if (const LinearForm* form = derivedForm(id)) return projectDerived(id, *form);
+    if (opposites[id] != 0) return intersect(current[opposites[id]], -current[id]);
     const IrNode& node = ir[id];
     const int arity = opInfo(node.op).arity;
     Interval operands[kMaxArity];
@@ -296,7 +297,7 @@ bool BoxContractor::solveLinear(std::span<const IrId> cone, std::span<const Repl
     std::vector<LinearForm> rows;
     std::vector<Interval> bounds;
     for (const IrId id : cone) {
-        if (frame->forms[id].isAtom(id) || !isBounded(current[id])) continue;
+        if (frame->forms[id].isAtom(id) || (current[id].lo <= -kHuge && current[id].hi >= kHuge)) continue;
         LinearForm form = substitute(frame->forms[id], replacements);
         const bool isUseful = std::ranges::any_of(
             form.terms, [&](const LinearForm::Term& term) { return !isBounded(current[term.atom]); });

@@ -10,11 +10,9 @@ namespace fw {
 
 namespace {
 
-/// Of shells around the origin.
-constexpr double kShellRatio = 4.0, kSmallestShell = 1.0 / 1024.0;
 constexpr std::size_t kShellSteps = 300'000;
 constexpr int kMaxShellSplits = 24, kShellSamples = 64;
-constexpr double kNearestSample = 1e-3;
+constexpr double kNearestSample = 1e-3, kFarEnd = 0.25;
 constexpr double kSmallestTrim = 1.0 / 32.0;  // of a box's side
 constexpr std::size_t kTrimSteps = 20'000;
 constexpr int kMaxTrimSplits = 12;
@@ -28,17 +26,13 @@ std::optional<Box> BoxContractor::reachFromOutside(const Goal& goal, const Box& 
 
 std::optional<Box> BoxContractor::boundFromOutside(const Goal& goal, int depth) {
     std::optional<Box> outer =
-        propagate({{goal.id, wantedBy(goal.above, goal.level)}}, frame->limits, depth + 1, Effort::quick);
+        propagate({{goal.id, wantedBy(goal.above, goal.level)}}, limits(), depth + 1, Effort::quick);
     if (!outer) return std::nullopt;
     if (isSeenFarAway(goal, *outer, kShellSamples)) return kAllSpace;
     shellLimit = stepCount + kShellSteps;
-    double farthest = 0.0;
-    for (std::size_t axis = 0; axis < frame->count; ++axis)
-        farthest = std::max({farthest, -frame->limits.lo[axis], frame->limits.hi[axis]});
     bool isFound = false, isFree = true;
-    for (double size = farthest / kShellRatio; isFree && outer && size > kSmallestShell;
-         size /= kShellRatio) {
-        const std::optional<Box> inner = common(*outer, cubeAround(size));
+    for (std::size_t i = 1; isFree && outer && i < frame->shells.size(); ++i) {
+        const std::optional<Box> inner = common(*outer, frame->shells[i]);
         if (inner == outer) continue;
         for (const Box& slab : boxesAround(*outer, inner))
             isFree = isFree && isUnreachable(goal, slab, kMaxShellSplits, depth);
@@ -54,8 +48,8 @@ std::optional<Box> BoxContractor::boundFromOutside(const Goal& goal, int depth) 
 void BoxContractor::extendToLimits(Box& box) const {
     const Box ranges = rangesOfVariables();
     for (std::size_t i = 0; i < frame->count; ++i) {
-        if (box.lo[i] <= frame->limits.lo[i]) box.lo[i] = ranges.lo[i];
-        if (box.hi[i] >= frame->limits.hi[i]) box.hi[i] = ranges.hi[i];
+        if (box.lo[i] <= limits().lo[i]) box.lo[i] = ranges.lo[i];
+        if (box.hi[i] >= limits().hi[i]) box.hi[i] = ranges.hi[i];
     }
 }
 
@@ -95,8 +89,10 @@ bool BoxContractor::isSeenFarAway(const Goal& goal, const Box& box, int samples)
             point.lo[i] = point.hi[i] = std::clamp(value, box.lo[i], box.hi[i]);
         }
         const std::size_t i = read[std::size_t(n) % read.size()];
-        const double end = std::abs(box.lo[i]) > box.hi[i] || random() & 1 ? box.lo[i] : box.hi[i];
-        point.lo[i] = point.hi[i] = end * (0.5 + 0.5 * unit());
+        const double below = std::abs(box.lo[i]), above = std::abs(box.hi[i]);
+        const bool isBelow =
+            std::min(below, above) < kFarEnd * std::max(below, above) ? below > above : random() & 1;
+        point.lo[i] = point.hi[i] = (isBelow ? box.lo[i] : box.hi[i]) * (0.5 + 0.5 * unit());
         setVariables(point);
         forwards(cone, false);
         if (goal.above ? current[goal.id].hi >= goal.level : current[goal.id].lo <= goal.level) return true;
@@ -104,12 +100,25 @@ bool BoxContractor::isSeenFarAway(const Goal& goal, const Box& box, int samples)
     return false;
 }
 
+/// The halves of a box whose sides are measured by those of the frame's limits.
+std::array<Box, 2> BoxContractor::halvesInFrame(const Box& box) const {
+    std::size_t longest = 0;
+    double longestShare = -1.0;
+    for (std::size_t i = 0; i < frame->count; ++i) {
+        const double side = box.hi[i] - box.lo[i], whole = limits().hi[i] - limits().lo[i];
+        if (whole > 0.0 && side / whole > longestShare) longest = i, longestShare = side / whole;
+    }
+    std::array<Box, 2> halves = {box, box};
+    halves[0].hi[longest] = halves[1].lo[longest] = 0.5 * (box.lo[longest] + box.hi[longest]);
+    return halves;
+}
+
 bool BoxContractor::isUnreachable(const Goal& goal, const Box& box, int splits, int depth) {
     const std::optional<Box> left =
         propagate({{goal.id, wantedBy(goal.above, goal.level)}}, box, depth + 1, Effort::quick);
     if (!left) return true;
     if (splits == 0 || stepCount > shellLimit || isSpent()) return false;
-    for (const Box& half : halvesOf(*left))
+    for (const Box& half : halvesInFrame(*left))
         if (!isUnreachable(goal, half, splits - 1, depth)) return false;
     return true;
 }

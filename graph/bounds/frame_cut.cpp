@@ -8,15 +8,16 @@ namespace {
 
 constexpr int kMaxCut = 3;
 
-/// Maximum flow from the last vertex of a cone to its variables. A vertex is an arc of capacity 1 from its in
-/// side to its out side, so that a unit of flow is a path and paths share no vertex.
+/// Maximum flow from the last vertex of a cone to its variables. A vertex that may be cut is an arc of
+/// capacity 1 from its in side to its out side, so that a unit of flow is a path and paths share no such
+/// vertex.
 class Flow {
   public:
     Flow(std::span<const IrId> cone, std::span<const IrId> variables,
-         const std::function<std::vector<IrId>(IrId)>& operandsOf)
+         const std::function<std::vector<IrId>(IrId)>& operandsOf, const std::function<bool(IrId)>& mayCut)
         : sink(int(2 * cone.size())), source(sink - 1), firstArc(std::size_t(sink) + 1, -1) {
         for (std::size_t v = 0; v < cone.size(); ++v) {
-            addArc(int(2 * v), int(2 * v + 1), 1);
+            addArc(int(2 * v), int(2 * v + 1), mayCut(cone[v]) ? 1 : kMaxCut + 1);
             for (const IrId operand : operandsOf(cone[v])) {
                 const bool isVariable = std::ranges::find(variables, operand) != variables.end();
                 const auto at = std::ranges::lower_bound(cone, operand) - cone.begin();
@@ -98,9 +99,10 @@ class Flow {
 }  // namespace
 
 std::vector<IrId> frameCut(std::span<const IrId> cone, std::span<const IrId> variables, CutSide side,
-                           const std::function<std::vector<IrId>(IrId)>& operandsOf) {
+                           const std::function<std::vector<IrId>(IrId)>& operandsOf,
+                           const std::function<bool(IrId)>& mayCut) {
     if (cone.size() < 2) return {};
-    Flow flow(cone, variables, operandsOf);
+    Flow flow(cone, variables, operandsOf, mayCut);
     int count = 0;
     while (count <= kMaxCut && flow.augment()) ++count;
     if (count > kMaxCut) return {};

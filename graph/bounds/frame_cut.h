@@ -19,8 +19,10 @@ enum class CutSide : unsigned char { variables, root };
 
 /// At most three values of the cone, without its last one, through which all paths from that one to the
 /// `variables` go; as few as possible. Empty if no such cut exists. `cone`: ids, ascending, without
-/// variables; `operandsOf`: the operands of a value that are in the cone, or variables.
+/// variables; `operandsOf`: the operands of a value that are in the cone, or variables; `mayCut`: whether a
+/// value may belong to the cut.
 std::vector<IrId> frameCut(std::span<const IrId> cone, std::span<const IrId> variables, CutSide side,
-                           const std::function<std::vector<IrId>(IrId)>& operandsOf);
+                           const std::function<std::vector<IrId>(IrId)>& operandsOf,
+                           const std::function<bool(IrId)>& mayCut);
 
 }  // namespace fw

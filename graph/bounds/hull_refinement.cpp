@@ -32,12 +32,13 @@ bool touchesFace(const Box& hull, const Box& cell) {
 }  // namespace
 
 HullRefinement::HullRefinement(const Ir& ir_, IrId root_, std::span<const double> parameters_,
-                               double lipschitz_, BoxContractor& contractor_)
+                               double lipschitz_, BoxContractor& contractor_, std::stop_token stop_)
     : ir(ir_),
       root(root_),
       parameters(parameters_.begin(), parameters_.end()),
       lipschitz(lipschitz_),
-      contractor(contractor_) {}
+      contractor(contractor_),
+      stop(std::move(stop_)) {}
 
 std::optional<Box> HullRefinement::refine(std::span<const BoxContractor::Part> parts) {
     if (parts.empty()) return std::nullopt;

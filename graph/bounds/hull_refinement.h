@@ -14,6 +14,7 @@
 #include <optional>
 #include <queue>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "graph/bounds/box_contractor.h"
@@ -37,9 +38,10 @@ class HullRefinement {
   public:
     /// `lipschitz`: of the field `root` as a whole, infinite if unknown: then cells are also tested by the
     /// value at their centre.
-    /// `contractor` is of the same Ir and parameters, and outlives this.
+    /// `contractor` is of the same Ir and parameters, and outlives this. Once a `stop` is requested refine()
+    /// returns what it has.
     HullRefinement(const Ir& ir, IrId root, std::span<const double> parameters, double lipschitz,
-                   BoxContractor& contractor);
+                   BoxContractor& contractor, std::stop_token stop);
 
     /// A box that contains all parts, at most their hull; nothing if the parts are proven empty.
     std::optional<Box> refine(std::span<const BoxContractor::Part> parts);
@@ -68,7 +70,9 @@ class HullRefinement {
     bool isCloseToSamples(double ratio, double sideRatio);
     const Tape& wholeTape();
     void enter(std::size_t face, std::size_t number);
-    bool canSplit() const { return cellCount + 2 <= maxCells && steps() < maxSteps; }
+    bool canSplit() const {
+        return cellCount + 2 <= maxCells && steps() < maxSteps && !stop.stop_requested();
+    }
     const Box& hull() const { return hulls.back(); }
 
     const Ir& ir;
@@ -76,6 +80,7 @@ class HullRefinement {
     std::vector<double> parameters;
     double lipschitz;
     BoxContractor& contractor;
+    std::stop_token stop;
     bool isThorough = false;  ///< RefinementEffort
     bool isSettled = false;   ///< all faces are tight
     TapeMachine<double> machine;

@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t kMaxRows = 24, kMaxColumns = 12;
 constexpr double kSmallestPivot = 1e-5;  ///< of rows scaled to a largest factor of 1
 constexpr double kZeroFactor = 1e-13, kFormSlack = 1e-9;
+constexpr double kAsGood = 0.999, kNearerScale = 0.9;
 constexpr double kFactorSlack = 1e-11;  ///< of a form of a basis
 
 struct Row {
@@ -107,12 +108,16 @@ LinearBasis basisOf(std::span<const LinearForm> forms, std::span<const IrId> ato
     std::vector<Row> units;
     while (units.size() < atoms.size()) {
         std::size_t best = 0;
-        double largest = kSmallestPivot;
+        double largest = kSmallestPivot, bestScale = 0.0;
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const double length = std::sqrt(dot(rows[i], rows[i])),
                          share = std::sqrt(dot(rests[i], rests[i])) / length;
-            // Factors that are only rounding errors are no direction. The first of those that are as good.
-            if (length > kSmallestPivot * longest && share > 1.001 * largest) largest = share, best = i;
+            // Factors that are only rounding errors are no direction. Of those that are as good, the one
+            // whose scale is nearest to that of the atoms: searches through boxes need sides of one scale.
+            const double scale = std::abs(std::log(length));
+            if (length <= kSmallestPivot * longest || share <= kAsGood * largest) continue;
+            if (share < largest / kAsGood && scale >= kNearerScale * bestScale) continue;
+            largest = std::max(share, largest), bestScale = scale, best = i;
         }
         if (largest == kSmallestPivot) break;
         const double length = std::sqrt(dot(rests[best], rests[best]));
@@ -185,11 +190,49 @@ void LinearForms::add(const Ir& ir, std::span<const IrId> ids, std::span<const I
     }
 }
 
-std::vector<IrId> solveForUnbounded(std::span<const LinearForm> forms, std::span<const Interval> bounds,
+namespace {
+
+/// A form without its constant, whose first factor is 1.
+struct BoundedForm {
+    std::vector<LinearForm::Term> terms;
+    Interval bounds;
+};
+
+bool areEqual(std::span<const LinearForm::Term> a, std::span<const LinearForm::Term> b) {
+    return std::ranges::equal(a, b, [](const LinearForm::Term& x, const LinearForm::Term& y) {
+        return x.atom == y.atom && std::abs(x.factor - y.factor) <= kZeroFactor * std::abs(x.factor);
+    });
+}
+
+/// The forms that are bounded on both sides. Forms that are multiples of each other but for their constants
+/// are one: so two half-spaces are a slab.
+std::vector<BoundedForm> boundedForms(std::span<const LinearForm> forms, std::span<const Interval> bounds) {
+    std::vector<BoundedForm> result;
+    for (std::size_t i = 0; i < forms.size(); ++i) {
+        if (forms[i].terms.empty()) continue;
+        BoundedForm form{.terms = forms[i].terms, .bounds = {}};
+        const Interval first{form.terms[0].factor, form.terms[0].factor};
+        form.bounds = (bounds[i] - Interval{forms[i].constant, forms[i].constant}) / first;
+        for (LinearForm::Term& term : form.terms) term.factor /= first.lo;
+        const auto same = std::ranges::find_if(
+            result, [&](const BoundedForm& other) { return areEqual(form.terms, other.terms); });
+        if (same == result.end())
+            result.push_back(std::move(form));
+        else if (Interval both = same->bounds; intersect(both, form.bounds))
+            same->bounds = both;
+    }
+    std::erase_if(result, [](const BoundedForm& form) { return !isBounded(form.bounds); });
+    return result;
+}
+
+}  // namespace
+
+std::vector<IrId> solveForUnbounded(std::span<const LinearForm> given, std::span<const Interval> givenBounds,
                                     std::span<Interval> atoms) {
+    const std::vector<BoundedForm> forms = boundedForms(given, givenBounds);
     const std::size_t count = std::min(forms.size(), kMaxRows);
     std::vector<IrId> columns;
-    for (const LinearForm& form : forms.first(count))
+    for (const BoundedForm& form : std::span(forms).first(count))
         for (const LinearForm::Term& term : form.terms)
             if (!isBounded(atoms[term.atom]) && std::ranges::find(columns, term.atom) == columns.end())
                 columns.push_back(term.atom);
@@ -233,7 +276,7 @@ std::vector<IrId> solveForUnbounded(std::span<const LinearForm> forms, std::span
         Interval total{0.0, 0.0};
         for (std::size_t i = 0; i < count; ++i) {
             if (row.multipliers[i] == 0.0) continue;
-            Interval rest = bounds[i] - Interval{forms[i].constant, forms[i].constant};
+            Interval rest = forms[i].bounds;
             for (const LinearForm::Term& term : forms[i].terms)
                 if (std::ranges::find(columns, term.atom) == columns.end())
                     rest = rest - Interval{term.factor, term.factor} * atoms[term.atom];

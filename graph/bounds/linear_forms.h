@@ -72,14 +72,14 @@ struct LinearBasis {
 };
 LinearBasis basisOf(std::span<const LinearForm> forms, std::span<const IrId> atoms);
 
-/// Solves bounded forms for their unbounded atoms: bounds[i] contains forms[i]. `atoms` has the current
-/// interval of each atom, by id; those that are unbounded are narrowed where the system determines them.
-/// Returns the atoms that were narrowed to a bounded interval.
+/// Solves forms that are bounded on one or both sides for their unbounded atoms: givenBounds[i] contains
+/// given[i]. `atoms` has the current interval of each atom, by id; those that are unbounded are narrowed
+/// where the system determines them. Returns the atoms that were narrowed to a bounded interval.
 ///
 /// In exact arithmetic the result is a proof. The factors of the forms are rounded, to some 1e-15 of
 /// themselves; the intervals are widened by 1e-9 of their size for that, and systems are rejected whose
 /// elimination loses more.
-std::vector<IrId> solveForUnbounded(std::span<const LinearForm> forms, std::span<const Interval> bounds,
+std::vector<IrId> solveForUnbounded(std::span<const LinearForm> given, std::span<const Interval> givenBounds,
                                     std::span<Interval> atoms);
 
 }  // namespace fw

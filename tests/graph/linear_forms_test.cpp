@@ -71,6 +71,27 @@ TEST(LinearBasis, OfMoreThanThreeAtomsIsEmpty) {
     EXPECT_TRUE(basisOf(forms, atoms).chosen.empty());
 }
 
+TEST(SolveForUnbounded, JoinsHalfSpacesToSlabs) {
+    // -1 <= x + 2 y <= 3 as two half-spaces, one of them scaled; 0 <= x - y <= 1 as a slab.
+    const std::vector<LinearForm> forms{formOf({1.0, 2.0, 0.0}, 5.0), formOf({-0.5, -1.0, 0.0}, 0.0),
+                                        formOf({1.0, -1.0, 0.0}, 0.0)};
+    const std::vector<Interval> bounds{{-kHuge, 8.0}, {-kHuge, 0.5}, {0.0, 1.0}};
+    std::array<Interval, 3> atoms{kEverything, kEverything, kEverything};
+    EXPECT_EQ(solveForUnbounded(forms, bounds, atoms).size(), 2u);
+    EXPECT_NEAR(atoms[0].lo, -1.0 / 3.0, 1e-6);
+    EXPECT_NEAR(atoms[0].hi, 5.0 / 3.0, 1e-6);
+    EXPECT_NEAR(atoms[1].lo, -2.0 / 3.0, 1e-6);
+    EXPECT_NEAR(atoms[1].hi, 1.0, 1e-6);
+    EXPECT_FALSE(isBounded(atoms[2]));
+}
+
+TEST(SolveForUnbounded, NeedsBothSides) {
+    const std::vector<LinearForm> forms{formOf({1.0, 2.0, 0.0}, 0.0), formOf({1.0, -1.0, 0.0}, 0.0)};
+    const std::vector<Interval> bounds{{-kHuge, 8.0}, {0.0, 1.0}};
+    std::array<Interval, 3> atoms{kEverything, kEverything, kEverything};
+    EXPECT_TRUE(solveForUnbounded(forms, bounds, atoms).empty());
+}
+
 TEST(LinearForm, RangesHoldTheValues) {
     const LinearForm form = formOf({2.0, -3.0, 0.5}, 1.0);
     const std::array<Interval, 3> atoms{Interval{-1.0, 2.0}, {0.0, 4.0}, {-kHuge, 8.0}};

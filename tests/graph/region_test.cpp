@@ -3,9 +3,13 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <random>
+#include <stop_token>
 
 #include "graph/bounds/region.h"
+#include "graph/evaluate/tape.h"
 #include "tests/support/graph/code_field.h"
 
 namespace fw::region_test {
@@ -66,6 +70,68 @@ TEST(Region, OfSolidsThatOnlyCutsOfCutsBound) {
         EXPECT_EQ(region.extent, Extent::bounded);
         EXPECT_LE(longestSide(joined(region.box, {lo, hi})), 20.0);
     }
+}
+
+/// Samples of the solid within the cube around a centre lie in the region, which is at most three times as
+/// long.
+void expectCloseRegion(const std::string& code, Point centre, double halfSize) {
+    SCOPED_TRACE(code);
+    const test::CodeField field = test::fieldOfCode(code);
+    const Region region = findRegion(field.ir, field.distance, {});
+    ASSERT_EQ(region.extent, Extent::bounded);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit(-halfSize, halfSize);
+    std::vector<Point> points(20'000);
+    for (Point& point : points)
+        for (std::size_t axis = 0; axis < 3; ++axis) point[axis] = centre[axis] + unit(random);
+    std::vector<double> values(points.size());
+    TapeMachine<double> machine;
+    machine.evaluate(makeTape(field.ir, field.distance, {}), points, values);
+    std::optional<Box> inside;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (values[i] < 0.0) joinInto(inside, Box{points[i], points[i]});
+    ASSERT_TRUE(inside);
+    EXPECT_EQ(joined(*inside, region.box), region.box);
+    EXPECT_LT(longestSide(region.box), 3.0 * longestSide(*inside));
+}
+
+TEST(Region, OfPolarRepeatsOfPolynomialsAroundObliqueAxes) {
+    const std::string axes =
+        "vec3 w = vec3(-0.404894, 0.750227, 0.522704); vec3 u = vec3(0.914364, 0.332212, 0.231462); "
+        "vec3 v = vec3(0, 0.571659, -0.820491); ";
+    const std::string fold =
+        "a = mod(atan2(dot(p, v), dot(p, u)), 1.0472); r = sqrt(dot(p, u) * dot(p, u) + dot(p, v) * dot(p, "
+        "v)); vec3 q = w * dot(p, w) + u * (r * cos(a)) + v * (r * sin(a)); ";
+    const std::string taper = "s = max(0.01, 1 - 0.04 * q.y); q = vec3(q.x / s, q.y, q.z / s); ";
+    const std::string polynomial =
+        "return 0.9 * q.x * q.x + 0.7 * q.y * q.y + 0.4 * q.z * q.z * q.z * q.z - 0.3 + 0.1 * q.x * q.z;";
+    expectCloseRegion(axes + fold + polynomial, {0, 0, 0}, 2.0);
+    expectCloseRegion(axes + fold + taper + polynomial, {0, 0, 0}, 2.0);
+}
+
+TEST(Region, OfSolidsNearTheFarthestCoordinates) {
+    const std::string polynomial =
+        "return (q.x * q.x + q.y * q.y) * (q.x * q.x + q.z * q.z) + q.x * q.x * q.z + q.y * q.y + q.z * q.z "
+        "- 1;";
+    for (const std::string place : {"20000, 0, 0", "-27000, 31000, 9000", "100, -50000, 40000"}) {
+        const Region region = regionOf("vec3 q = p - vec3(" + place + "); " + polynomial);
+        EXPECT_EQ(region.extent, Extent::bounded) << place;
+        EXPECT_LT(longestSide(region.box), 8.0) << place;
+    }
+}
+
+TEST(Region, OfDifferencesOfBothSigns) {
+    expectCloseRegion(
+        "a = 2 * p.z; u = p.x * cos(a) + p.y * sin(a); v = p.y * cos(a) - p.x * sin(a); d = u * v - p.z; e = "
+        "p.z - u * v; return d * d * d * d + (u + v) * (u + v) + 0.1 * e + p.z * p.z + u * u - 1;",
+        {0, 0, 0}, 2.0);
+}
+
+TEST(Region, IsUnprovenOnceAStopIsRequested) {
+    const auto stop = std::make_unique<std::stop_source>();  // on the stack GCC 12 warns of it at -Og
+    stop->request_stop();
+    const test::CodeField field = test::fieldOfCode("return twist(box(p, vec3(0.3, 1, 0.1)), 1440);");
+    EXPECT_EQ(findRegion(field.ir, field.distance, {}, 1.0, stop->get_token()).extent, Extent::unproven);
 }
 
 TEST(Region, OfManySolidsThatAreTurned) {
