@@ -62,6 +62,7 @@ Interval truncatedModulo(Interval a, Interval b) {
 
 Interval sine(Interval a) {
     constexpr double slack = 1e-12;
+    if (!isBounded(a)) return kEverything;
     if (a.hi - a.lo >= 2 * std::numbers::pi || std::max(std::abs(a.lo), std::abs(a.hi)) > 1e9)
         return {-1.0, 1.0};
     const auto contains = [&](double phase) {  // an x = phase (mod 2π) lies in a

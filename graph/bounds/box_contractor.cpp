@@ -5,6 +5,8 @@
 #include <functional>
 #include <utility>
 
+#include "graph/bounds/undefined.h"
+
 namespace fw {
 
 namespace {
@@ -12,13 +14,32 @@ namespace {
 constexpr int kMaxRounds = 4;     // forwards and backwards through one cone
 constexpr int kMaxCaseDepth = 3;  // of nested cases
 constexpr int kMaxRepeats = 4;
-/// Shells around the origin: the first one is thin, so that solids near the farthest coordinates are bounded.
+/// Of shells around the origin. The first one is thin, so that solids near the farthest coordinates are
+/// bounded.
 constexpr double kFirstShellRatio = 8.0 / 7.0, kShellRatio = 4.0, kSmallestShell = 1.0 / 1024.0;
 constexpr int kMaxCuts = 4;               // of nested frames
 constexpr double kWorthRepeating = 0.95;  // of a side
 constexpr std::size_t kMaxReplacements = 4;
 /// Steps that the cases within one cone may cost.
 constexpr std::size_t kCaseSteps = 5'000, kCaseStepsEach = 40;
+
+/// Of functions with a limited range: over all values up to this one they take all of it.
+constexpr double kFarPhase = 1e15;
+bool hasLimitedRange(Op op) {
+    return op == Op::sine || op == Op::cosine || op == Op::gradientNoise || op == Op::simplexNoise ||
+           op == Op::worleyNoise || op == Op::cellWall;
+}
+
+/// a / b where b is not 0: a divisor that ends at 0 has a known sign, and 1 / (0, h] is [1 / h, infinity).
+/// Points where it is 0 hold no solid, if they have no volume.
+Interval quotient(Interval a, Interval b) {
+    const bool isOneSided = (b.lo == 0.0) != (b.hi == 0.0), hasSign = a.lo > 0.0 || a.hi < 0.0;
+    if (!isOneSided || !hasSign) return a / b;
+    const Interval least = Interval{std::min(std::abs(a.lo), std::abs(a.hi)), kHuge} /
+                           Interval{std::max(-b.lo, b.hi), std::max(-b.lo, b.hi)};
+    const Interval size{least.lo, kHuge};
+    return (a.lo > 0.0) == (b.hi > 0.0) ? size : -size;
+}
 
 /// Numbers beyond kHuge are somewhere near that end: intervals have no larger ones.
 Interval rangeOfConstant(double number) {
@@ -36,6 +57,13 @@ bool isFinite(const Box& box) {
 }
 bool isBounded(const Box& box) { return isFinite(box) && longestSide(box) <= kLongestSide; }
 
+std::vector<double> shellSizes() {
+    std::vector<double> sizes{kFarthest, kFarthest / kFirstShellRatio};
+    for (double size = kFarthest / kShellRatio; size > kSmallestShell; size /= kShellRatio)
+        sizes.push_back(size);
+    return sizes;
+}
+
 BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters)
     : ir(ir_),
       current(ir.size()),
@@ -47,22 +75,25 @@ BoxContractor::BoxContractor(const Ir& ir_, std::span<const Interval> parameters
       noted(ir.size()),
       notedIn(ir.size()) {
     frame->isAtom.resize(ir.size());
-    frame->shells = {cubeAround(kFarthest), cubeAround(kFarthest / kFirstShellRatio)};
-    for (double size = kFarthest / kShellRatio; size > kSmallestShell; size /= kShellRatio)
+    for (const double size : shellSizes()) {
         frame->shells.push_back(cubeAround(size));
-    evaluateEverywhere(parameters);
-    findUndefined();
-    if (std::ranges::any_of(mayBeNaN, std::identity{})) evaluateEverywhere(parameters);
+        farShell += size > kFarShell;
+    }
+    const std::vector<Interval> nearby = evaluateAll(parameters, cubeAround(kOverflowDistance));
+    everywhere = evaluateAll(parameters, kAllSpace);
+    mayBeNaN = findUndefined(ir, everywhere, nearby);
+    if (std::ranges::any_of(mayBeNaN, std::identity{})) everywhere = evaluateAll(parameters, kAllSpace);
     findAngles();
     findOpposites();
     findRotations();
     findSplines();
 }
 
-void BoxContractor::evaluateEverywhere(std::span<const Interval> parameters) {
-    for (IrId id = 0; id < ir.size(); ++id) {
+std::vector<Interval> BoxContractor::evaluateAll(std::span<const Interval> parameters, const Box& box) {
+    setVariables(box);
+    for (IrId id = 3; id < ir.size(); ++id) {
         const IrNode& node = ir[id];
-        if (id < 3 || node.op == Op::column)
+        if (node.op == Op::column)
             current[id] = kEverything;
         else if (node.op == Op::parameter)
             current[id] = parameters[std::size_t(node.number)];
@@ -72,7 +103,7 @@ void BoxContractor::evaluateEverywhere(std::span<const Interval> parameters) {
             current[id] = evaluate(id);
         if (!std::isfinite(current[id].lo) || !std::isfinite(current[id].hi)) current[id] = kEverything;
     }
-    everywhere = current;
+    return current;
 }
 
 void BoxContractor::findAngles() {
@@ -104,7 +135,14 @@ Interval BoxContractor::evaluate(IrId id) const {
     Interval operands[kMaxArity];
     const OpInfo& info = opInfo(node.op);
     for (int i = 0; i < info.arity; ++i) operands[i] = current[node.operands[std::size_t(i)]];
+    // These are NaN of an infinite value; but an unbounded one need not be infinite, or it is in mayBeNaN.
+    if (hasLimitedRange(node.op))
+        for (int i = 0; i < info.arity; ++i) intersect(operands[i], {-kFarPhase, kFarPhase});
+    if (node.op == Op::divide && !mayBeNaN[id]) return quotient(operands[0], operands[1]);
     Interval result = info.interval(operands, samplesLayer(node.op) ? ir.layer(node) : SampledLayer{});
+    // A comparison with NaN is false.
+    if (node.op == Op::less || node.op == Op::lessEqual || node.op == Op::equal)
+        if (mayBeNaN[id]) result = hull(result, {0.0, 0.0});
     // The other operand, where one is NaN.
     if (node.op == Op::minimum || node.op == Op::maximum)
         for (const std::size_t i : {0, 1})
@@ -229,6 +267,11 @@ std::vector<IrId> BoxContractor::coneOf(std::span<const Constraint> constraints)
     }
     std::ranges::sort(cone);
     return cone;
+}
+
+bool BoxContractor::mayBeUndefined(IrId root) {
+    return std::ranges::any_of(coneOf(std::array{Constraint{root, {}}}),
+                               [&](IrId id) { return mayBeNaN[id]; });
 }
 
 std::vector<IrId> BoxContractor::dependenciesOf(IrId id) const {

@@ -62,7 +62,12 @@ namespace fw {
 
 /// Up to this coordinate solids are searched for that only a search over space bounds, in units of the
 /// document.
-inline constexpr double kFarthest = 65536.0;
+inline constexpr double kFarthest = 1e8;
+/// Half the sides of the cubes around the origin between which searches over space look, descending.
+std::vector<double> shellSizes();
+/// A search that finds no bounds within this coordinate is taken for one that lacks proof: solids are rarely
+/// so far out.
+inline constexpr double kFarShell = 2e5;
 
 /// All of space; its ends stand for infinity, as those of intervals.
 inline constexpr Box kAllSpace{{-kHuge, -kHuge, -kHuge}, {kHuge, kHuge, kHuge}};
@@ -98,6 +103,10 @@ class BoxContractor {
     std::optional<Box> contractThoroughly(IrId root, double level, const Box& box);
     /// The same, with cuts of cuts and blends of any form, within `steps` more steps.
     std::optional<Box> contractExhaustively(IrId root, double level, const Box& box, std::size_t steps);
+
+    /// Whether an operation that `root` is computed from may be NaN in some volume of space. The intervals of
+    /// a tape say nothing of such values.
+    bool mayBeUndefined(IrId root);
 
     /// Operations evaluated on intervals so far, forwards and backwards. Once there are more than `limit`
     /// contract() returns the box that it was given, which is right but of no use.
@@ -248,8 +257,8 @@ class BoxContractor {
     bool projectSplines(IrId id);
     std::size_t boundedCount(std::span<const IrId> cone) const;
     bool solveLinear(std::span<const IrId> cone, std::span<const Replacement> replacements, bool& narrowed);
-    void evaluateEverywhere(std::span<const Interval> parameters);
-    void findUndefined();
+    /// The intervals of all operations over the box.
+    std::vector<Interval> evaluateAll(std::span<const Interval> parameters, const Box& box);
     void findAngles();
     void findOpposites();
     void findRotations();
@@ -279,7 +288,7 @@ class BoxContractor {
     const Ir& ir;
     std::vector<Interval> everywhere;  ///< of each operation, over all of space
     std::vector<Interval> current;     ///< over the box at hand, where the constraints hold
-    std::vector<bool> mayBeNaN;        ///< in some volume of space
+    std::vector<bool> mayBeNaN;        ///< in some volume of space (undefined.h)
     std::vector<bool> isAngular;       ///< functions of angles (atan2) alone, which bound no coordinate
     std::vector<IrId> opposites;       ///< of b - a: a - b, if that has a smaller id; else 0
     std::vector<uint32_t> stamps;
@@ -293,6 +302,7 @@ class BoxContractor {
     Frame* frame = &frames[{}];
     std::unordered_multimap<IrId, Rotation> rotations;  ///< by the smaller of p and q
     std::unordered_map<IrId, SplineUse> splines;        ///< by the smallest id of its channels
+    std::size_t farShell = 0;                           ///< the first of a frame's shells within kFarShell
     int caseDepth = 0;                                  ///< of nested cases that backwards() may go through
     Rules rules = Rules::simple;                        ///< of reach()
     int cutsLeft = 0;                                   ///< of nested frames that Rules::all may enter

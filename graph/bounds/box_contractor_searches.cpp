@@ -40,6 +40,9 @@ std::optional<Box> BoxContractor::boundFromOutside(const Goal& goal, int depth) 
     }
     if (!isFound) return kAllSpace;
     if (outer) trim(goal, *outer, depth);
+    // Other cuts may bound the goal better.
+    const Box& far = frame->shells[farShell];
+    if (!isFree && outer && joined(*outer, far) != far) return kAllSpace;
     if (outer) extendToLimits(*outer);
     return outer;
 }

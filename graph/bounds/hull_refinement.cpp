@@ -103,7 +103,6 @@ bool HullRefinement::refine(const RefinementEffort& effort) {
     return true;
 }
 
-/// Whether points inside the solid are known close to all faces of the hull.
 bool HullRefinement::isCloseToSamples(double ratio, double sideRatio) {
     std::mt19937 random(1);
     std::vector<Point> points(kSamples);
@@ -193,6 +192,11 @@ void HullRefinement::split(std::size_t number) {
 /// Gives a part its tape, and replaces it by the rest of it after slabs at its faces that are empty.
 void HullRefinement::shave(Cell cell) {
     cell.tape = std::make_shared<const Tape>(makeTape(ir, cell.part, parameters));
+    cell.isDefined = !contractor.mayBeUndefined(cell.part);
+    if (!cell.isDefined) {
+        cells.push_back(std::move(cell));
+        return;
+    }
     if (machine.interval(*cell.tape, cell.box).lo >= 0.0) return;
     if (kWorthSimplifying * machine.decidedSteps() > cell.tape->steps.size())
         cell.tape = std::make_shared<const Tape>(machine.shortenedForSigns(*cell.tape));
@@ -214,23 +218,25 @@ void HullRefinement::shave(Cell cell) {
 /// Keeps the cell unless it is empty.
 void HullRefinement::test(Cell cell) {
     ++cellCount;
-    if (machine.interval(*cell.tape, cell.box).lo >= 0.0) return;
-    const bool jumps = machine.jumps();
-    if (kWorthSimplifying * machine.decidedSteps() > cell.tape->steps.size())
-        cell.tape = std::make_shared<const Tape>(machine.shortenedForSigns(*cell.tape));
-    if (jumps && machine.positiveInEachCase(*cell.tape, cell.box)) return;
+    if (cell.isDefined) {
+        if (machine.interval(*cell.tape, cell.box).lo >= 0.0) return;
+        const bool jumps = machine.jumps();
+        if (kWorthSimplifying * machine.decidedSteps() > cell.tape->steps.size())
+            cell.tape = std::make_shared<const Tape>(machine.shortenedForSigns(*cell.tape));
+        if (jumps && machine.positiveInEachCase(*cell.tape, cell.box)) return;
+    }
     if (std::isfinite(lipschitz)) {
         pointSteps += wholeTape().steps.size();
         if (isProvenOutside(machine, wholeTape(), cell.box, lipschitz)) return;
     }
-    if (isThorough) {
+    if (isThorough || !cell.isDefined) {
         const std::size_t before = contractor.steps();
         const std::optional<Box> box = contractor.contract(cell.part, 0.0, cell.box);
         pointSteps += contractor.steps() - before;
         if (!box) return;
         cell.box = *box;
         pointSteps += 4 * cell.tape->steps.size();
-        if (gradients.meanValue(*cell.tape, cell.box).lo >= 0.0) return;
+        if (cell.isDefined && gradients.meanValue(*cell.tape, cell.box).lo >= 0.0) return;
     }
     cells.push_back(std::move(cell));
 }

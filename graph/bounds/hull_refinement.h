@@ -46,6 +46,10 @@ class HullRefinement {
     /// A box that contains all parts, at most their hull; nothing if the parts are proven empty.
     std::optional<Box> refine(std::span<const BoxContractor::Part> parts);
 
+    /// Whether samples of the solid reach so far towards the faces of the hull that its longest side is at
+    /// most `ratio` times as long as theirs, and all sides at most `sideRatio` times.
+    bool isCloseToSamples(double ratio, double sideRatio);
+
     std::size_t steps() const { return machine.intervalSteps() + pointSteps; }
 
   private:
@@ -55,6 +59,8 @@ class HullRefinement {
         IrId part = 0;                          ///< whose tape it has, until there is `tape`
         std::shared_ptr<const Tape> tape = {};  ///< of the part, within the box
         bool isSplit = false;
+        bool isDefined =
+            true;  ///< the part has no NaN in a volume, of which intervals of the tape say nothing
         enum class Centre : unsigned char { unknown, inside, outside } centre = Centre::unknown;
         std::size_t first = 0, last = 0;  ///< the halves that are left, from `first` to before `last`
     };
@@ -67,7 +73,6 @@ class HullRefinement {
     void split(std::size_t number);
     void shave(Cell cell);
     void test(Cell cell);
-    bool isCloseToSamples(double ratio, double sideRatio);
     const Tape& wholeTape();
     void enter(std::size_t face, std::size_t number);
     bool canSplit() const {

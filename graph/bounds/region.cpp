@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "graph/bounds/box_contractor.h"
 #include "graph/bounds/hull_refinement.h"
@@ -14,9 +15,11 @@ namespace {
 constexpr double kPartShellRatio = 4.0;                // of a shell's outer and inner size
 constexpr double kFirstPartShell = 0.875 * kFarthest;  // inner size of the first one
 constexpr double kSmallestPartShell = 1.0 / 1024.0;
+constexpr double kLargestRatio = 64.0;  // of an incomplete region's sides and those of samples of the solid
+constexpr std::size_t kPartSamples = 1024;
 constexpr int kMaxPartSplits = 24;
 constexpr std::size_t kPartSteps = 300'000;  // of operations on intervals, for one part
-constexpr std::size_t kContractionSteps = 12'000'000, kFirstExhaustiveSteps = 800'000,
+constexpr std::size_t kContractionSteps = 15'000'000, kFirstExhaustiveSteps = 800'000,
                       kExhaustiveSteps = 7'000'000;
 
 /// Bounds a part that the contractor alone does not bound.
@@ -31,24 +34,24 @@ class ShellSearch {
           contractor(contractor_),
           stop(std::move(stop_)) {}
 
-    /// The part's region within `box`.
+    /// The part's region within `box`. Where a shell is not proven empty it is the box around that.
     Region bound(IrId part, const Box& box) {
+        isComplete = true;
         std::optional<Box> outer = common(box, cubeAround(kFarthest));
         if (!outer) return {Extent::empty, {}, {}};
-        if (!std::isfinite(lipschitz)) tape = makeTape(ir, part, parameters);
-        if (reachesTo(*outer)) return {Extent::unbounded, {}, *outer};
-        std::vector<double> sizes{kFirstPartShell};
-        for (double size = kFarthest / kPartShellRatio; size > kSmallestPartShell; size /= kPartShellRatio)
-            sizes.push_back(size);
-        for (const double size : sizes) {
-            const std::optional<Box> inner = common(*outer, cubeAround(size));
+        prepare(part);
+        const Box inHalf = cubeAround(0.5 * kFarthest);
+        if (joined(*outer, inHalf) != inHalf && reachesTo(*outer)) return {Extent::unbounded, {}, *outer};
+        const std::vector<double> sizes = shellSizes();
+        for (std::size_t i = 1; i < sizes.size(); ++i) {
+            const std::optional<Box> inner = common(*outer, cubeAround(sizes[i]));
             if (inner == outer) continue;
             const std::size_t limit = contractor.steps() + pointSteps + kPartSteps;
             std::optional<Box> left;
             for (const Box& slab : boxesAround(*outer, inner))
                 if (!isEmpty(part, slab, limit, kMaxPartSplits, left)) break;
-            if (left && size == kFirstPartShell) return {Extent::unproven, *outer, *left};
-            if (left) return {Extent::bounded, *outer, {}};
+            isComplete = !left;
+            if (left) return {i == 1 ? Extent::unproven : Extent::bounded, *outer, *left};
             if (!inner) return {Extent::empty, {}, {}};
             outer = contractor.contract(part, 0.0, *inner);
             if (!outer) return {Extent::empty, {}, {}};
@@ -56,12 +59,27 @@ class ShellSearch {
         return {Extent::bounded, *outer, {}};
     }
 
+    /// Whether samples within the box find the part.
+    bool isHit(IrId part, const Box& box) {
+        prepare(part);
+        std::mt19937 random(1);
+        std::uniform_real_distribution<double> unit(0.0, 1.0);
+        std::vector<Point> points(kPartSamples);
+        for (Point& point : points)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                point[axis] = std::lerp(box.lo[axis], box.hi[axis], unit(random));
+        return anyInside(points);
+    }
+
+    /// Whether the last part's region is bounded by its solid, not only by the work that was done.
+    bool isComplete = true;
+
   private:
     /// Whether samples find solid in the outer half of the box.
     bool reachesTo(const Box& box) {
         std::mt19937 random(1);
         std::uniform_real_distribution<double> unit(0.0, 1.0);
-        std::vector<Point> points(1024);
+        std::vector<Point> points(kPartSamples);
         for (Point& point : points) {
             for (std::size_t axis = 0; axis < 3; ++axis)
                 point[axis] = std::lerp(box.lo[axis], box.hi[axis], unit(random));
@@ -74,9 +92,15 @@ class ShellSearch {
                     break;
                 }
         }
+        return anyInside(points);
+    }
+    bool anyInside(std::span<const Point> points) {
         std::vector<double> values(points.size());
         machine.evaluate(tape, points, values);
         return std::ranges::any_of(values, [](double value) { return value < 0.0; });
+    }
+    void prepare(IrId part) {
+        if (!std::isfinite(lipschitz)) tape = makeTape(ir, part, parameters);
     }
 
     /// Proves that the part has nothing within the box; else `left` is a box where it may have something.
@@ -115,19 +139,28 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
     contractor.setStop(stop);
     std::vector<BoxContractor::Part> parts = contractor.parts(distance);
     std::optional<ShellSearch> shells;
+    double loosest = 0.0;  // longest side of the regions that are incomplete
+    Box unproven{};        // in the last one
     const auto bound = [&](const BoxContractor::Part& part) -> Region {
         const auto exhaustively = [&](std::size_t steps) -> Region {
             const std::optional<Box> box = contractor.contractExhaustively(part.root, 0.0, part.box, steps);
             if (!box) return {Extent::empty, {}, {}};
             return {isBounded(*box) ? Extent::bounded : Extent::unproven, *box, {}};
         };
-        Region region = exhaustively(kFirstExhaustiveSteps);
-        if (region.extent != Extent::unproven) return region;
+        const Region first = exhaustively(kFirstExhaustiveSteps);
+        if (first.extent == Extent::empty) return first;
         if (!shells) shells.emplace(ir, distance, parameters, lipschitz, contractor, stop);
-        region = shells->bound(part.root, part.box);
-        if (region.extent != Extent::unproven) return region;
+        if (first.extent == Extent::bounded && shells->isHit(part.root, first.box)) return first;
+        Region region = shells->bound(part.root, first.box);
+        if (shells->isComplete) return region;
+        if (first.extent == Extent::bounded) return region.extent == Extent::unproven ? first : region;
         const Region last = exhaustively(kExhaustiveSteps);
-        return last.extent == Extent::unproven ? region : last;
+        if (last.extent != Extent::unproven) return last;
+        if (region.extent == Extent::bounded) {
+            loosest = std::max(loosest, longestSide(region.box));
+            unproven = std::exchange(region.unproven, {});
+        }
+        return region;
     };
     for (std::size_t i = 0; i < parts.size();) {
         const Region region =
@@ -144,6 +177,9 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
     HullRefinement refinement(ir, distance, parameters, lipschitz, contractor, stop);
     const std::optional<Box> box = refinement.refine(parts);
     if (stop.stop_requested()) return {Extent::unproven, cubeAround(kFarthest), cubeAround(kFarthest)};
+    // A region that is large only for want of proof would hide the solid in one of its cells.
+    if (box && loosest > kFarShell && !refinement.isCloseToSamples(kLargestRatio, kLargestRatio))
+        return {Extent::unproven, *box, unproven};
     return box ? Region{Extent::bounded, *box, {}} : Region{Extent::empty, {}, {}};
 }
 

@@ -121,6 +121,7 @@ constexpr T clampUnit(T x) {
 /// Interval of a noise from its value at the box's centre and its greatest slope.
 Interval noiseInterval(I x, NoiseSample (*noise)(double, double, double, double), double slope, double least,
                        double most) {
+    if (!isBounded(x[0]) || !isBounded(x[1]) || !isBounded(x[2])) return kEverything;
     if (!x[3].isPoint()) return {least, most};
     double centre[3], squared = 0.0, rounding = 1e-9;
     for (int i = 0; i < 3; ++i) {

@@ -120,6 +120,51 @@ TEST(Region, OfSolidsNearTheFarthestCoordinates) {
     }
 }
 
+TEST(Region, OfProductsThatReachFar) {
+    // No interval rule bounds a product: only the search from outside does.
+    for (const double place : {1e3, 6e4, 1e5, 2e6, 3e7}) {
+        const std::string x = std::to_string(place);
+        const Region region =
+            regionOf("vec3 q = p - vec3(" + x + ", 0, 0); return (dot(p, p) - 1) * (dot(q, q) - 4);");
+        ASSERT_EQ(region.extent, Extent::bounded) << place;
+        EXPECT_LE(region.box.lo[0], -1.0) << place;
+        EXPECT_GE(region.box.hi[0], place + 2.0) << place;
+    }
+}
+
+TEST(Region, OfSolidsBehindValuesThatAreNoNumber) {
+    // max(d, NaN) is d, and a comparison with NaN is false: the ball at (100, 0, 0) or (-100, 0, 0) stays.
+    const std::string right = "d = length(p - vec3(100, 0, 0)) - 1; ",
+                      left = "d = length(p + vec3(100, 0, 0)) - 1; ", ball = " return min(length(p) - 1, d);";
+    for (const std::string& code : {
+             right + "e = pow(p.x, 200.5); d = max(d, e / e);",
+             right + "e = exp(-p.x * p.x); q = 1 / (e * e); d = max(d, 1 + q * e * e);",
+             right + "e = exp(p.x * p.x); f = exp(p.x * p.x + p.y * p.y); d = max(d, 1 + abs(e - f));",
+             right + "e = exp(p.x * 20); d = max(d, 2 + perlin(vec3(e, 1, 1)));",
+             right + "e = exp(p.x * 20); if (1 + abs(cos(e)) > 0.5) d = 5;",
+             left + "d = max(d, 2 + cos(1 / max(p.x, 0.0)));",
+             left + "d = max(d, 2 + sin(inversesqrt(p.x)));",
+             left + "d = max(d, 2 + sin(1 / floor(abs(p.x) / 1000.0)));",
+         }) {
+        SCOPED_TRACE(code);
+        const Region region = regionOf(code + ball);
+        ASSERT_EQ(region.extent, Extent::bounded);
+        const bool isRight = code.starts_with(right);
+        EXPECT_TRUE(isRight ? region.box.hi[0] >= 101.0 : region.box.lo[0] <= -101.0);
+    }
+}
+
+TEST(Region, OfReciprocals) {
+    for (const char* code :
+         {"return length(p) - 3 + 0.1 / abs(p.x);", "return 1 / (p.x * p.x) + length(p) - 5;",
+          "return 1 / length(p.xz) + length(p) - 5;", "return length(p) - 5 - 1 / -abs(p.y);"}) {
+        const Region region = regionOf(code);
+        ASSERT_EQ(region.extent, Extent::bounded) << code;
+        EXPECT_LT(longestSide(region.box), 10.1) << code;
+        EXPECT_GT(longestSide(region.box), 5.0) << code;
+    }
+}
+
 TEST(Region, OfDifferencesOfBothSigns) {
     expectCloseRegion(
         "a = 2 * p.z; u = p.x * cos(a) + p.y * sin(a); v = p.y * cos(a) - p.x * sin(a); d = u * v - p.z; e = "
