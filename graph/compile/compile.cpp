@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "graph/base/words.h"
 #include "graph/bounds/region.h"
 #include "graph/compile/effort.h"
 #include "graph/compile/graph_lowering.h"
+#include "graph/compile/single_precision.h"
 #include "graph/document/named_parameters.h"
 #include "graph/ir/affine_sums.h"
 #include "graph/rules/structure.h"
@@ -35,51 +35,6 @@ std::optional<Error> fieldProblem(const Graph& graph, const Node& output, const 
                 "beyond all bounds");
     error.code = Error::Code::divisionByZero;  // it may be one at another time
     return error;
-}
-
-/// A warning at a node of the graph, or of a group in it by its path.
-Error warningAt(const Graph& graph, const std::string& path, std::string message) {
-    Error warning = errorAt(graph, graph.node(path.substr(0, path.find('/'))), std::move(message));
-    warning.node = path;
-    warning.severity = Error::Severity::warning;
-    return warning;
-}
-
-/// A warning if the field's numbers are more than a float holds, at the node where they come to be. Looked
-/// for near the origin, in fields with large factors.
-std::optional<Error> overflow(const Graph& graph, const Ir& ir, std::span<const IrId> roots,
-                              std::span<const LiveParameter> live, std::span<const std::string> origins) {
-    constexpr double kLarge = 1e6, kMost = std::numeric_limits<float>::max();
-    std::vector<bool> needed(ir.size());
-    for (const IrId root : roots) needed[root] = true;
-    bool large = false;
-    for (IrId id = IrId(ir.size()); id-- > 0;) {
-        if (!needed[id]) continue;
-        large |= ir.isConstant(id) && std::abs(ir.number(id)) > kLarge;
-        for (int i = 0; i < opInfo(ir[id].op).arity; ++i) needed[ir[id].operands[i]] = true;
-    }
-    if (!large) return std::nullopt;
-    std::vector<double> values(ir.size());
-    for (const std::array<double, 3>& place : {std::array{0.37, -0.61, 0.83}, {-3.1, 4.7, -2.3}}) {
-        for (IrId id = 0; id < ir.size(); ++id) {
-            if (!needed[id]) continue;
-            const IrNode& node = ir[id];
-            const OpInfo& info = opInfo(node.op);
-            std::array<double, kMaxArity> operands{};
-            for (int i = 0; i < info.arity; ++i) operands[i] = values[node.operands[i]];
-            values[id] = id < 3                     ? place[id]
-                         : node.op == Op::parameter ? live[std::size_t(node.number)].value
-                         : node.op == Op::constant  ? node.number
-                         : node.op == Op::column    ? 0
-                                                    : info.value(operands.data(), ir.layer(node));
-            if (info.arity > 0 && std::abs(values[id]) > kMost)
-                return warningAt(graph, origins[ir.origin(id)],
-                                 "numbers grow to " + shortNumber(values[id]) +
-                                     " here, where a device holds no more than 3.4e38: the surface would be "
-                                     "wrong; use smaller ones");
-        }
-    }
-    return std::nullopt;
 }
 
 /// How the mesh is made: by the polygonize node that it comes from, else by the output node.
@@ -150,7 +105,7 @@ Result<Program> compileGraph(const Graph& graph, const CompileOptions& options) 
     program.spoiledBy = result.spoiledBy;
     program.nodeExactness = std::move(lowering.exactness);
     program.notes = std::move(lowering.findings);
-    if (auto note = overflow(graph, program.ir, program.surface, program.live, program.origins))
+    if (auto note = largeNumbers(graph, program.ir, program.surface, program.parameters(), program.origins))
         program.notes.push_back(std::move(*note));
     readSettings(*output, result.value.mesh ? *result.value.mesh : MeshRecipe{}, program);
     if (options.triangles > 0)
@@ -246,8 +201,10 @@ std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& optio
         std::array<IrId, kSurfaceComponents> surface = lowered.at(output->id).outputs[0].value.ids;
         if (lowered.at(output->id).transmits) lowering.lowerOpaque(*output);
         const bool small = lowering.state.ir.size() <= kMaxIrOperations;
+        std::vector<double> parameters;
+        for (const LiveParameter& parameter : lowering.live) parameters.push_back(parameter.value);
         if (small)
-            if (auto note = overflow(graph, lowering.state.ir, surface, lowering.live, lowering.origins))
+            if (auto note = largeNumbers(graph, lowering.state.ir, surface, parameters, lowering.origins))
                 lowering.findings.push_back(std::move(*note));
         const Ir needed = small ? Ir() : lowering.state.ir.compact(surface);
         if (auto problem =

@@ -57,4 +57,11 @@ Error errorAt(const Graph& graph, const Node* node, std::string message) {
     return error;
 }
 
+Error warningAt(const Graph& graph, const std::string& path, std::string message) {
+    Error warning = errorAt(graph, graph.node(path.substr(0, path.find('/'))), std::move(message));
+    warning.node = path;
+    warning.severity = Error::Severity::warning;
+    return warning;
+}
+
 }  // namespace fw

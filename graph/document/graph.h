@@ -138,6 +138,8 @@ struct Graph {
 
 /// About the node, or if that is null about the whole document.
 Error errorAt(const Graph& graph, const Node* node, std::string message);
+/// A warning at a node of the graph, or of a group in it, by its path "instance/node".
+Error warningAt(const Graph& graph, const std::string& path, std::string message);
 
 /// The entry of `nodes` with this id, or nullptr.
 const Node* findNode(const std::vector<Node>& nodes, std::string_view id);

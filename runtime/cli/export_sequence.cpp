@@ -5,6 +5,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "graph/base/words.h"
+#include "graph/bounds/region.h"
 #include "graph/check/typed_parameter.h"
 #include "graph/document/named_parameters.h"
 #include "graph/document/sweep.h"
@@ -101,15 +103,23 @@ int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::
         return files;
     };
     WrittenBehind writing;  // behind what it refers to
-    bool empty = false;
+    long emptyFiles = 0;
+    const auto noteEmpty = [&](Player& player, const std::string& path) {
+        if (emptyFiles++ > 0) return;
+        const bool isEmpty = findRegion(player.programOnHost()).extent == Extent::empty;
+        std::string what = "the solid is empty there";
+        if (!isEmpty)
+            what = "the solid is thinner than a cell of " +
+                   shortNumber(longestSide(player.meshedRegion()) / player.resolution()) +
+                   " m there (raise the resolution)";
+        std::fprintf(stderr, "%s: note: %s, and the file has no triangles\n", path.c_str(), what.c_str());
+    };
     const auto make = [&](Player& player, long number, const std::string& path, std::function<void()> kept) {
         if (const Done shown = many.show(player, number); !shown)
             return badInput(options.mesh, shown.error());
         Result<std::vector<Mesh>> levels = player.levels(std::size_t(options.lods), partsOf(options, path));
         if (!levels) return badInput(options.mesh, in(levels.error(), many.one + (' ' + files.name(number))));
-        if (levels->front().indices.empty() && !std::exchange(empty, true))
-            std::fprintf(stderr, "%s: note: the solid is empty there, and the file has no triangles\n",
-                         path.c_str());
+        if (levels->front().indices.empty()) noteEmpty(player, path);
         fw::ExportOptions with = how;
         with.cellSize = float(longestSide(player.region()) / player.resolution());
         with.kept = std::move(kept);
@@ -141,6 +151,9 @@ int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::
         return kDone;
     };
     const auto end = [&] {
+        if (emptyFiles > 1)
+            std::fprintf(stderr, "%s: note: %ld files have no triangles\n", options.output.c_str(),
+                         emptyFiles);
         const Done written = writing.end();
         return written ? kDone : (print(written.error()), kSystemFailure);
     };

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdio>
 
+#include "graph/compile/single_precision.h"
 #include "runtime/bake/mesh_field_baker.h"
 #include "runtime/cli/progress_lines.h"
 #include "runtime/export/outputs.h"
@@ -112,6 +113,7 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
                               options.method.value_or(program->method)};
     const Result<Box> box = meshRegion(*program, request, regionContext(*graph, options.graph.time));
     if (!box) return fail(badInput(options, box.error()));
+    if (const std::optional<Error> note = precisionLoss(*graph, *program, *box)) print(*note);
     prepareKernels(*program, [&] { return !device.isOpen(); });
     progress.start("device", 15);
     Result<Device>& opened = device.get();

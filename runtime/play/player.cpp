@@ -10,6 +10,7 @@
 #include "graph/bounds/region.h"
 #include "graph/check/check.h"
 #include "graph/compile/moving_region.h"
+#include "graph/compile/single_precision.h"
 #include "graph/document/json.h"
 #include "graph/document/named_parameters.h"
 
@@ -116,7 +117,7 @@ Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& wishe
             exposed.insert(parameter.node + "." + parameter.input);
     Result<LiveProgram> live = compileLive(std::move(graph), std::move(compileOptions), exposed);
     if (!live) return live.error();
-    Prepared made{std::move(*live), {}, false, {}};
+    Prepared made{std::move(*live), {}, false, true, {}};
     const Result<Scene> scene = readScene(*made.graph.scene);
     if (scene && scene->sky && scene->sky->isPicture()) {
         Result<EnvironmentMapPtr> map = readEnvironment(made.graph.path, scene->sky->image);
@@ -124,6 +125,8 @@ Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& wishe
         made.environment = std::move(*map);
     }
     if (const Done found = findSharedRegion(made, wishes); !found) return found.error();
+    if (auto note = precisionLoss(made.graph, made.program, *made.region))
+        made.program.notes.push_back(std::move(*note));
     return made;
 }
 
@@ -145,16 +148,7 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
     if (context.stop.stop_requested()) return inGraph(prepared.graph, cancelledError());
     if (found.region.extent == Extent::bounded) {
         prepared.region = padded(found.region.box, resolution, 1.5);
-        if (found.unproven) {
-            Error note =
-                problem(prepared.graph,
-                        "the solid may leave its region between " + shortNumber(found.unproven->first) +
-                            " s and " + shortNumber(found.unproven->second) +
-                            " s, and be missing there: its bounds are known at single times only; give "
-                            "a region to be sure (--region)");
-            note.severity = Error::Severity::warning;
-            program.notes.push_back(std::move(note));
-        }
+        prepared.regionIsProven = !found.unproven;
         return done();
     }
     if (found.region.extent == Extent::empty && !prepared.timeline.tracks.empty())
@@ -358,16 +352,19 @@ Result<MesherResult> Player::makeMesh(bool stages, uint32_t show) {
     if (!now.region)
         if (const Done found = findSharedRegion(now, options); !found) return found.error();
     const double time = timelineTime();
-    const bool beyond = now.regionFound && now.fieldMoves && !(time >= 0.0 && time <= now.timeline.length);
+    const bool isOnTimeline = time >= 0.0 && time <= now.timeline.length;
+    const bool mayLeave = now.regionFound && now.fieldMoves && !(isOnTimeline && now.regionIsProven);
     Result<MesherResult> result = MesherResult{};
     Box region = *now.region;
-    if (!beyond) result = session.polygonise({region, resolution(), options.method, stages});
-    if (result && (beyond || result->capped) && now.regionFound) {
-        // Beyond the timeline, or between the times that were looked at, the solid reaches farther.
-        const Result<Box> own =
-            meshRegion(session.program(), {{}, resolution()}, {&now.graph, time, stopToken(options)});
-        if (!own) return inGraph(now.graph, own.error());
-        region = joined(region, *own);
+    if (!mayLeave) result = session.polygonise({region, resolution(), options.method, stages});
+    if (result && (mayLeave || result->capped) && now.regionFound) {
+        const Region own = findRegion(session.program(), stopToken(options));
+        if (stopToken(options).stop_requested()) return inGraph(now.graph, cancelledError());
+        if (own.extent == Extent::bounded)
+            region = joined(region, padded(own.box, resolution(), 1.5));
+        else if (own.extent != Extent::empty)
+            return inGraph(now.graph,
+                           regionError(session.program(), own, {&now.graph, time, stopToken(options)}));
         result = session.polygonise({region, resolution(), options.method, stages});
     }
     if (!result) return problem(now.graph, result.error().message);

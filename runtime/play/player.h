@@ -14,7 +14,7 @@
 // is asked for, and again only once a value that the field reads has changed.
 //
 // All times of the timeline share one region, so that the grid does not swim under a moving solid: bounds are
-// found at its keys and at even steps between. A frame whose solid leaves it nevertheless gets a region of
+// found at its keys and at even steps between. A frame whose solid leaves it, or may do so, gets a region of
 // its own. So a frame depends on its time and on the parameters alone, not on those that came before it.
 //
 // Particles have a past: what they are at a time comes from the steps up to then, of which some are kept for
@@ -201,6 +201,7 @@ class Player {
     struct Prepared : LiveProgram {
         std::optional<Box> region;      ///< shared by all times
         bool regionFound = false;       ///< rather than given
+        bool regionIsProven = true;     ///< to hold the solid at all times of the timeline
         EnvironmentMapPtr environment;  ///< that the scene's sky names, if it names one
     };
 

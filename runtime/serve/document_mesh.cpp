@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "graph/base/fence.h"
+#include "graph/compile/single_precision.h"
 #include "graph/document/unit.h"
 #include "runtime/export/outputs.h"
 #include "runtime/files/mesh_wish.h"
@@ -185,6 +186,7 @@ Answer Document::exportMesh(Params& params, Task& task) {
     const Result<Box> region =
         meshRegion(*program, request, regionContext(graph(), seconds, task.cancelled.token()));
     if (!region) return Fault(region.error());
+    const std::optional<Error> loss = precisionLoss(graph(), *program, *region);
     Result<Device> device = openDevice();
     if (!device) return Fault(kSystemFault, device.error().message);
     const auto starts = [&task](const char* stage) {
@@ -214,6 +216,7 @@ Answer Document::exportMesh(Params& params, Task& task) {
                     {"vertices", levels->front().positions.size()},
                     {"triangles", levels->front().triangleCount()},
                     {"capped", meshed->mesh.capped}};
+    if (loss) reply.result["notes"] = findingsJson({*loss});
     return reply;
 }
 

@@ -139,14 +139,39 @@ TEST_F(MeshSequence, GoesOnWhereItStopped) {
     EXPECT_EQ(namesIn(folder.path("of_vdb")), (std::vector<std::string>{"000000.vdb", "000001.vdb"}));
 }
 
+TEST_F(MeshSequence, SaysOfSolidsThinnerThanACellThatTheyAre) {
+    // A ball that jumps 50 m each second: cells of the shared region are larger than it.
+    test::writeText(graph, R"({"fieldwright": 1, "nodes": [
+      {"id": "e", "type": "expression", "code": "return length(p - vec3(50 * floor(time), 0, 0)) - 1;"},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "e"}, "resolution": 16}}],
+      "timeline": {"length": 4, "fps": 1}})");
+    const CommandResult made = exported(folder.path("thin"), {"--from", "0", "--to", "3"});
+    EXPECT_EQ(made.status, 0) << made.errors;
+    EXPECT_NE(made.errors.find("thinner than a cell of"), std::string::npos) << made.errors;
+}
+
+TEST_F(MeshSequence, FindsSolidsThatAppearBetweenTheMomentsOfTheRegion) {
+    // A product, whose motion is not proven: far away for some frames between the moments that are searched.
+    test::writeText(graph, R"({"fieldwright": 1, "nodes": [
+      {"id": "e", "type": "expression", "code": "x = time > 0.511 && time < 0.521 ? 20 : 0; vec3 q = p - vec3(x, 0, 0); return (dot(q, q) - 1) * (dot(q, q) + 4);"},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "e"}, "resolution": 64}}],
+      "timeline": {"length": 1, "fps": 100}})");
+    const CommandResult made = exported(folder.path("jump"), {"--from", "0.51", "--to", "0.53"});
+    EXPECT_EQ(made.status, 0) << made.errors;
+    EXPECT_EQ(made.errors, "");
+    for (const char* name : {"000051.glb", "000052.glb"})
+        EXPECT_FALSE(placesBelow(folder.path("jump") + "/" + name, 10.0f).empty()) << name;
+}
+
 TEST_F(MeshSequence, AFrameWithoutASolidIsAnEmptyFile) {
     test::writeText(graph, kEaten);
     for (const std::string ending : {".glb", ".gltf", ".obj", ".stl", ".ply", ".3mf", ".vdb"}) {
         const std::string at = folder.path("of_" + ending.substr(1));
         const CommandResult made = exported(at, {"--from", "0", "--format", ending.substr(1)});
         EXPECT_EQ(made.status, 0) << made.errors;
-        EXPECT_EQ(made.errors,
-                  frame(at, 1, ending) + ": note: the solid is empty there, and the file has no triangles\n");
+        EXPECT_EQ(made.errors, frame(at, 1, ending) +
+                                   ": note: the solid is empty there, and the file has no triangles\n" + at +
+                                   ": note: 2 files have no triangles\n");
         for (int number = 0; number < 4; ++number) EXPECT_TRUE(isWholeMesh(frame(at, number, ending)));
         EXPECT_LT(std::filesystem::file_size(frame(at, 2, ending)), 1500u) << ending;
         EXPECT_GT(std::filesystem::file_size(frame(at, 0, ending)),
