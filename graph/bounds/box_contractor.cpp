@@ -137,7 +137,8 @@ Interval BoxContractor::evaluate(IrId id) const {
     for (int i = 0; i < info.arity; ++i) operands[i] = current[node.operands[std::size_t(i)]];
     // These are NaN of an infinite value; but an unbounded one need not be infinite, or it is in mayBeNaN.
     if (hasLimitedRange(node.op))
-        for (int i = 0; i < info.arity; ++i) intersect(operands[i], {-kFarPhase, kFarPhase});
+        for (int i = 0; i < info.arity; ++i)
+            if (!isBounded(operands[i])) operands[i] = {-kFarPhase, kFarPhase};
     if (node.op == Op::divide && !mayBeNaN[id]) return quotient(operands[0], operands[1]);
     Interval result = info.interval(operands, samplesLayer(node.op) ? ir.layer(node) : SampledLayer{});
     // A comparison with NaN is false.

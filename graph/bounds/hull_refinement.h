@@ -59,8 +59,8 @@ class HullRefinement {
         IrId part = 0;                          ///< whose tape it has, until there is `tape`
         std::shared_ptr<const Tape> tape = {};  ///< of the part, within the box
         bool isSplit = false;
-        bool isDefined =
-            true;  ///< the part has no NaN in a volume, of which intervals of the tape say nothing
+        /// The part has no NaN in a volume, of which intervals of the tape say nothing.
+        bool isDefined = true;
         enum class Centre : unsigned char { unknown, inside, outside } centre = Centre::unknown;
         std::size_t first = 0, last = 0;  ///< the halves that are left, from `first` to before `last`
     };

@@ -112,8 +112,8 @@ LinearBasis basisOf(std::span<const LinearForm> forms, std::span<const IrId> ato
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const double length = std::sqrt(dot(rows[i], rows[i])),
                          share = std::sqrt(dot(rests[i], rests[i])) / length;
-            // Factors that are only rounding errors are no direction. Of those that are as good, the one
-            // whose scale is nearest to that of the atoms: searches through boxes need sides of one scale.
+            // Factors that are only rounding errors are no direction. Among equally good forms the scale
+            // decides, as searches through boxes need sides of one scale.
             const double scale = std::abs(std::log(length));
             if (length <= kSmallestPivot * longest || share <= kAsGood * largest) continue;
             if (share < largest / kAsGood && scale >= kNearerScale * bestScale) continue;

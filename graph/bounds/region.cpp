@@ -12,9 +12,6 @@ namespace fw {
 
 namespace {
 
-constexpr double kPartShellRatio = 4.0;                // of a shell's outer and inner size
-constexpr double kFirstPartShell = 0.875 * kFarthest;  // inner size of the first one
-constexpr double kSmallestPartShell = 1.0 / 1024.0;
 constexpr double kLargestRatio = 64.0;  // of an incomplete region's sides and those of samples of the solid
 constexpr std::size_t kPartSamples = 1024;
 constexpr int kMaxPartSplits = 24;

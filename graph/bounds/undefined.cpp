@@ -12,7 +12,7 @@ namespace {
 /// exp() of more overflows, and of less than the negative is 0.
 constexpr double kLargestExponent = 700.0;
 
-/// What an operation's value may be in some volume of space.
+/// Properties that an operation's value may have in some volume of space.
 struct Volume {
     bool isConstant = false, isPlusInfinity = false, isMinusInfinity = false, isNaN = false;
 

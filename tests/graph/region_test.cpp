@@ -72,7 +72,7 @@ TEST(Region, OfSolidsThatOnlyCutsOfCutsBound) {
     }
 }
 
-/// Samples of the solid within the cube around a centre lie in the region, which is at most three times as
+/// Samples of the solid within the cube around a centre are in the region, which is at most three times as
 /// long.
 void expectCloseRegion(const std::string& code, Point centre, double halfSize) {
     SCOPED_TRACE(code);
