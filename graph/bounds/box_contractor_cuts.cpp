@@ -172,8 +172,9 @@ BoxContractor::Frame& BoxContractor::frameOf(const Cut& cut) {
 }
 
 bool BoxContractor::isFunctionOfVariables(IrId id) {
-    const std::vector<IrId> cone = coneOf(std::array{Constraint{id, {}}});
-    return cone.empty() || cone.front() >= 3;  // the cone lacks the position unless it is the variables
+    // A coordinate in the cone is no variable, but it may be a linear form of the variables.
+    return std::ranges::none_of(coneOf(std::array{Constraint{id, {}}}),
+                                [&](IrId at) { return at < 3 && !derivedForm(at); });
 }
 
 Box BoxContractor::rangesOfVariables() const {

@@ -79,7 +79,10 @@ Error regionError(const Program& program, const Region& found, const RegionConte
                                  ? "the solid is unbounded"
                                  : "the solid cannot be proven bounded: " + describeUnproven(found.unproven);
     const bool saysWhere = (node ? node->extent : found.extent) == Extent::unproven;
+    // Bits of the axes that the field depends on.
+    const bool isFlat = program.ir[program.distance()].positions == 0b011;
     return problem(what + (saysWhere ? "; " : ": ") +
+                   (isFlat ? "it is a flat shape, the same at every z: extrude or revolve it, " : "") +
                    "intersect it with a box, or give a region (--region, or region_min and region_max of a "
                    "polygonize node)");
 }

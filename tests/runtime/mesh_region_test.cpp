@@ -49,6 +49,14 @@ TEST(MeshRegion, NamesTheNodeThatIsUnbounded) {
     EXPECT_EQ(unnamed.error().message, std::string("the solid is unbounded: ") + kRemedy);
 }
 
+TEST(MeshRegion, SaysWhatFlatShapesNeed) {
+    EXPECT_EQ(
+        messageOf(graphOf(R"({"id": "disc", "type": "circle"})", "disc")),
+        std::string("node 'disc' (Circle) is unbounded: it is a flat shape, the same at every z: extrude "
+                    "or revolve it, ") +
+            kRemedy);
+}
+
 TEST(MeshRegion, SaysWhereSolidMayBe) {
     const std::string message = messageOf(graphOf(kWarped, "w"));
     EXPECT_TRUE(message.starts_with("node 'w' (Warp) cannot be proven bounded: there may be solid between ("))
