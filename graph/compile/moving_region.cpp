@@ -15,6 +15,7 @@ namespace fw {
 namespace {
 
 constexpr int kMaxTimeHalvings = 4, kMaxBoxHalvings = 9;
+constexpr double kMaxGrowth = 1.5;                   ///< of the hull's longest side, by one box
 constexpr double kMargin = 1e-9;                     ///< of the hull's size, that counts as inside it
 constexpr std::size_t kStepsOfInterval = 1'000'000;  ///< of a contractor, between two moments
 
@@ -24,7 +25,7 @@ class MotionProof {
     MotionProof(const LiveProgram& live_, std::optional<Box>& hull_, std::stop_token stop_)
         : live(live_), hull(hull_), stop(std::move(stop_)) {}
 
-    /// False if nothing bounds what may lie outside the hull.
+    /// False if what may be outside the hull is unbounded, or far larger than it.
     bool prove(double from, double to) {
         stepsLeft = kStepsOfInterval;
         isBoundedBetween = true;
@@ -69,7 +70,11 @@ class MotionProof {
             return;
         }
         if (halvings == 0 || stop.stop_requested() || contractor.steps() >= stepsLeft) {
-            joinInto(hull, rest);
+            // A hull that grows much would hide the solid in few of its cells.
+            if (hull && longestSide(joined(*hull, *rest)) > kMaxGrowth * longestSide(*hull))
+                isBoundedBetween = false;
+            else
+                joinInto(hull, rest);
             return;
         }
         for (const Box& half : halvesOf(*rest)) split(contractor, half, halvings - 1);
