@@ -141,9 +141,6 @@ BoxContractor::Frame& BoxContractor::frameOf(const Cut& cut) {
         if (inner.derived.emplace(id, form).second) inner.forms.set(id, form);
     };
     for (const auto& [id, form] : cut.derived) derive(id, form);
-    for (IrId id = 3; id < ir.size(); ++id)
-        if (opposites[id] != 0 && std::ranges::find(cut.values, opposites[id]) != cut.values.end())
-            derive(id, {.terms = {{opposites[id], -1.0}}, .constant = 0.0});
     // Variables that stay keep the forms of them.
     for (const auto& [id, form] : frame->derived)
         if (std::ranges::find(cut.values, id) == cut.values.end() &&
@@ -152,6 +149,9 @@ BoxContractor::Frame& BoxContractor::frameOf(const Cut& cut) {
             }))
             derive(id, form);
     if (!isNew) return inner;
+    for (IrId id = 3; id < ir.size(); ++id)
+        if (opposites[id] != 0 && std::ranges::find(cut.values, opposites[id]) != cut.values.end())
+            derive(id, {.terms = {{opposites[id], -1.0}}, .constant = 0.0});
     inner.count = cut.values.size();
     inner.isAtom = frames.begin()->second.isAtom;
     std::ranges::copy(cut.values, inner.variables.begin());
