@@ -93,12 +93,14 @@ Libs: -L${prefix}/@CMAKE_INSTALL_LIBDIR@ -lfw_runtime -lfw_graph -lglslang -lMac
 ]])
 install(FILES ${CMAKE_BINARY_DIR}/pages/fieldwright.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
-# The module where Debian's Python looks, which is what the wheel holds but for its list of files: that is of pip, which would
-# remove by it what apt has installed.
+# The module where Debian's Python looks: the contents of the wheel, without its list of files, by which pip would remove what
+# apt has installed, and without its licences, which Debian keeps in usr/share/doc.
 if(TARGET fw_python)
     install(CODE "set(packages \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib/python3/dist-packages\")
 file(ARCHIVE_EXTRACT INPUT \"${python_wheel}\" DESTINATION \"\${packages}\" TOUCH)
-file(REMOVE \"\${packages}/fieldwright-${PROJECT_VERSION}.dist-info/RECORD\")" COMPONENT python EXCLUDE_FROM_ALL)
+set(about \"\${packages}/fieldwright-${PROJECT_VERSION}.dist-info\")
+file(REMOVE_RECURSE \"\${about}/RECORD\" \"\${about}/licenses\")" COMPONENT python EXCLUDE_FROM_ALL)
 endif()
 
+include(runtime/package/notices.cmake)
 include(runtime/package/package.cmake)
