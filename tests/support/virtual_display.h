@@ -1,48 +1,55 @@
-// A display for tests of real windows, and what is seen on it.
+// VirtualDisplay: an X server without a screen, for tests of real windows, and the pixels on it.
+//
+// One server per process and size: it starts with the first display and stays for the later ones, since a
+// start takes about as long as a short test. Every display starts clean: no window, no clipboard, no pressed
+// key or button, the pointer in the centre. A server that is not clean, or was used by a failed test, is
+// ended, and the next display starts a new one.
+//
+// Displays of one size that live at the same time have servers of their own. Not thread-safe.
 #pragma once
 
 #include <gtest/gtest.h>
-#include <sys/types.h>
 
 #include <glm/vec3.hpp>
-#include <string>
 
 #include "runtime/render/picture.h"
-#include "tests/support/graph/temp_dir.h"
 
 namespace fw::test {
 
+/// Sleeps.
 void rest(double seconds);
 
-/// An X server without a screen; DISPLAY leads to it as long as it lives.
+struct XServer;
+
 class VirtualDisplay {
   public:
+    /// Sets DISPLAY to the server. `width` and `height` in pixels.
     explicit VirtualDisplay(int width = 640, int height = 480);
     VirtualDisplay(const VirtualDisplay&) = delete;
     VirtualDisplay& operator=(const VirtualDisplay&) = delete;
+    /// Unsets DISPLAY.
     ~VirtualDisplay();
-    bool works() const { return number >= 0; }
+    /// False if the server could not be started.
+    bool works() const { return server != nullptr; }
 
-    /// All of the screen now.
+    /// The whole screen.
     Picture screen() const;
-    /// Columns x0 to x1 and rows y0 to y1 of it, the last not included, into this picture; as far as there
-    /// are any.
+    /// Copies the screen from (x0, y0) up to, but not including, (x1, y1), clamped to the screen.
     void look(Picture& into, int x0, int y0, int x1, int y1) const;
     int width() const { return wide; }
     int height() const { return high; }
-    /// The colour of a pixel of the screen now.
+    /// The colour of a pixel, 0 to 255.
     glm::ivec3 pixel(int x, int y) const;
 
+    /// Ends the server under its programs, as if it had crashed.
+    void endServer();
+
   private:
-    TempDir folder;
+    XServer* server = nullptr;  ///< owned by the process
     int wide, high;
-    pid_t process = -1;
-    int number = -1;
-    const unsigned char* memory = nullptr;  ///< the server's own, of the file that the screen is
-    std::size_t bytes = 0, first = 0, stride = 0;
 };
 
-/// Fails the test where there is no X server: windows are looked at on every machine.
+/// Fails the test if there is no X server.
 #define NEEDS_DISPLAY(display) ASSERT_TRUE((display).works()) << "Xvfb is not installed: run ./.install test"
 
 }  // namespace fw::test
