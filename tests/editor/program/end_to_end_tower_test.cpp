@@ -3,8 +3,8 @@
 
 #include "editor/canvas/fields.h"
 #include "graph/document/json.h"
-#include "tests/support/editor/program.h"
 #include "tests/support/command.h"
+#include "tests/support/editor/program.h"
 
 namespace fw::editor::test::end_to_end_tower_test {
 
