@@ -85,6 +85,8 @@ class SceneWriter {
 
     /// A random bounded shape about the origin.
     ScenePart shape();
+    /// A random solid of revolution or polyhedron, whose distance is exact or a bound.
+    ScenePart plainShape() { return random.chance(0.5) ? solidOfRevolution() : polyhedron(); }
     /// A random flat shape in the xy plane.
     ScenePart flatShape();
     /// The part after a random domain operation.
