@@ -1,4 +1,4 @@
-// Random everyday scenes, judged by brute force: what the program claims about a field and its solid must
+// Random everyday scenes, judged by brute force: the claims of the program about a field and its solid must
 // agree with samples of the field.
 //
 // FIELDWRIGHT_LONG=1 tests 2,000 scenes on finer grids. FIELDWRIGHT_SCENE_SEED=N tests only scene N, and
@@ -153,8 +153,8 @@ void judgeRegion(const Program& program, const Region& region, bool isThorough, 
         judgement.add(Fault::boundsTooSmall, "solid in " + text(*solid.bounds) + ", bounds " + text(bounds));
 }
 
-/// By how much the values of a field that was measured on a grid can differ from what the node claims. Values
-/// between samples fall short of the distance to the grid's box, which is used outside of it.
+/// The error of a field that was measured on a grid. Outside of the grid its value is the distance to the
+/// grid's box, and the values between samples can fall short of that.
 double gridError(const Program& program) {
     double cell = 0.0;
     for (const FieldVolumePtr& volume : program.ir.volumes()) cell = std::max(cell, volume->grid.cell);
@@ -173,8 +173,8 @@ void judgeDistances(const Program& program, const ReferenceField& field, const B
     const bool isClaim = std::isfinite(declared.lipschitz) || declared.outside || declared.inside;
     if (!isClaim && !std::isfinite(proven)) return;
     const double slack = gridError(program) + kRounding * sizeOf(box);
-    // The search for the nearest surface ends far within its proven error. Of an exact field it also tries
-    // the very point that the value and the slope promise.
+    // The search for the nearest surface ends far within its proven error. For an exact field it also tries
+    // the point that the value and the slope promise.
     const double searchError = 0.25 * solid.grid.step;
     test::SceneRandom random(seed);
     for (int i = 0; i < points; ++i) {

@@ -90,7 +90,7 @@ bool hasParticles(const Program& program) {
                                [](const FieldVolumePtr& volume) { return !volume->made(); });
 }
 
-/// What a document is: "solid", or why it has no measurable solid.
+/// The kind of a document: "solid", or why it has no measurable solid.
 std::string kindOf(const Program& program, const Region& region) {
     if (hasParticles(program)) return "needs the runtime";
     switch (region.extent) {
@@ -105,8 +105,8 @@ std::string kindOf(const Program& program, const Region& region) {
 Json jsonOf(const Point& point) { return {point[0], point[1], point[2]}; }
 Point pointOf(const Json& json) { return {json[0], json[1], json[2]}; }
 
-/// A grid of about so many cells around the region, or around the origin if there is none. Its corner
-/// has coordinates that faces of solids seldom have, so that few samples are on a face.
+/// A grid of about that number of cells around the region, or around the origin if the region is not bounded.
+/// Faces of solids seldom have the coordinates of its samples.
 SampleGrid gridFor(const Region& region, double cells, int attempt) {
     Box box = region.extent == Extent::bounded ? region.box : cubeAround(2.0);
     const double margin = (0.06 + 0.00731 * attempt) * std::max(longestSide(box), 1e-3);
@@ -223,7 +223,7 @@ std::string differenceOn(const Program& program, const Json& recorded) {
     return difference;
 }
 
-/// What is wrong with the document at the time of a record; empty if nothing is.
+/// The differences between the program and its record, as text; empty if they agree.
 std::string problemOf(const Program& program, const Json& recorded) {
     const Region region = hasParticles(program) ? Region{} : findRegion(program);
     if (const std::string kind = kindOf(program, region); kind != recorded["is"])
@@ -315,7 +315,7 @@ TEST(FrozenGraphs, AreWrittenBackUnchanged) {
     }
 }
 
-/// The types of all nodes of the document, as they stand in the file.
+/// Adds the types of the nodes, as the file spells them.
 void collectTypes(const Json& nodes, std::set<std::string>& types) {
     for (const Json& node : nodes) types.insert(node["type"].get<std::string>());
 }
