@@ -242,9 +242,10 @@ Point towardsSurface(const PointField& field, const Point& point, double step) {
 }
 
 /// Looks for surface points nearer than `nearest` in random directions around the best one.
-void searchAround(const PointField& field, const Point& point, bool isInside, double step, uint32_t seed,
+void searchAround(const PointField& field, const Point& point, double value, double step, uint32_t seed,
                   NearestSurface& nearest) {
-    constexpr int kRounds = 24, kDirections = 10;
+    constexpr int kRounds = 24, kDirections = 10, kAroundFoot = 100;
+    const bool isInside = value < 0.0;
     SceneRandom random(seed);
     double spread = std::min(1.0, 2.0 * step / std::max(nearest.distance, 1e-300));
     Point best{};
@@ -252,7 +253,18 @@ void searchAround(const PointField& field, const Point& point, bool isInside, do
         best[axis] = (nearest.at[axis] - point[axis]) / std::max(nearest.distance, 1e-300);
     for (int round = 0; round < kRounds; ++round) {
         std::vector<Point> ways, ends, inside, outside;
-        if (round == 0) ways.push_back(towardsSurface(field, point, 1e-4 * step));
+        if (round == 0) {
+            const Point way = towardsSurface(field, point, 1e-4 * step);
+            ways.push_back(way);
+            // A true distance leads to the surface, also of a part that no sample has hit. That can be a
+            // sharp edge, so the solid is looked for in all directions from there.
+            for (int i = 0; i < kAroundFoot && std::abs(value) < nearest.distance; ++i) {
+                const Point off = random.direction();
+                Point& end = ends.emplace_back();
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    end[axis] = point[axis] + std::abs(value) * way[axis] + 0.01 * step * off[axis];
+            }
+        }
         while (int(ways.size()) < kDirections) ways.push_back(spreadDirection(best, spread, random));
         for (const Point& way : ways)
             ends.push_back({point[0] + nearest.distance * way[0], point[1] + nearest.distance * way[1],
@@ -369,7 +381,7 @@ NearestSurface nearestSurface(const PointField& field, const BruteForceSolid& so
     if (!std::isfinite(nearest.distance)) return nearest;
     double value = 0.0;
     field(std::span(&point, 1), std::span(&value, 1));
-    searchAround(field, point, value < 0.0, solid.grid.step, seed, nearest);
+    searchAround(field, point, value, solid.grid.step, seed, nearest);
     return nearest;
 }
 

@@ -96,8 +96,9 @@ struct NearestSurface {
 };
 
 /// Searches the sign changes of the grid, refines those that could be nearest by bisection, and then looks
-/// for nearer ones by sampling directions around the best. The field's slope at the point, by finite
-/// differences, is one of these directions.
+/// for nearer ones by sampling directions around the best. It also goes down the slope, which it finds by
+/// finite differences, for the length of the value. So it finds the nearest point of a true distance even if
+/// the grid misses that part of the solid.
 NearestSurface nearestSurface(const PointField& field, const BruteForceSolid& solid, const Point& point,
                               uint32_t seed = 1);
 
