@@ -45,6 +45,9 @@ Result<std::vector<CachedSimulation>> parseCache(const std::string& bytes, const
         made.part = text("part");
         const std::string data = text("data");
         std::from_chars(data.data(), data.data() + data.size(), made.data, 16);
+        const auto algorithms = entry.find("algorithms");
+        const bool isRecorded = algorithms != entry.end() && algorithms->is_number_unsigned();
+        made.algorithms = isRecorded ? algorithms->get<uint32_t>() : 0;
         if (made.node.empty() || made.part.empty()) return isNone();
     }
     return simulations;
@@ -53,7 +56,7 @@ Result<std::vector<CachedSimulation>> parseCache(const std::string& bytes, const
 }  // namespace
 
 uint64_t CachedSimulation::key() const {
-    uint64_t hash = data;
+    uint64_t hash = mixed(data, algorithms);
     for (const unsigned char c : node + '\n' + part) hash = mixed(hash, c);
     return hash ^ hash >> 32;
 }
@@ -89,6 +92,7 @@ std::string writeParticleCache(const ParticleCache& cache, double step, const st
         header["simulations"].push_back({{"node", each.node},
                                          {"folder", each.folder()},
                                          {"data", asHex(each.data)},
+                                         {"algorithms", each.algorithms},
                                          {"part", each.part}});
     return header.dump(2) + "\n";
 }

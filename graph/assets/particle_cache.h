@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "graph/base/algorithm_version.h"
 #include "graph/base/result.h"
 
 namespace fw {
@@ -27,6 +28,7 @@ struct CachedSimulation {
     std::string node;   ///< whose particles: its id, with those of the groups that it is in
     std::string part;   ///< of the document that makes them, as the text of a graph file
     uint64_t data = 0;  ///< a hash of what the files hold that it reads
+    uint32_t algorithms = kAlgorithmVersion;  ///< of the program that simulated; 0: not recorded
     bool operator==(const CachedSimulation&) const = default;
 
     /// What its files are marked with.

@@ -44,8 +44,10 @@ CachedSimulation simulationOf(const Graph& graph, Stages stages) {
     return {.node = node, .part = textBehind(graph, node), .data = hashOfFiles(stages)};
 }
 
-/// How a simulation differs from that of the cache.
+/// How a simulation of the present program differs from that of the cache.
 std::string differenceOf(const CachedSimulation& was, const std::string& part) {
+    if (was.algorithms != kAlgorithmVersion)
+        return "it was made by a version of Fieldwright with other algorithms";
     const Result<Graph> before = parseGraph(was.part, "", nullptr), now = parseGraph(part, "", nullptr);
     return before && now ? differenceOf(*before, *now) : "its nodes are others";
 }
@@ -101,7 +103,8 @@ Done checkCache(const Graph& graph, const ParticleCache& cache) {
     for (const CachedSimulation& kept : cache.simulations) {
         const std::string_view id = std::string_view(kept.node).substr(0, kept.node.find('/'));
         if (!graph.node(id)) return useless("there is no node " + inQuotes(id));
-        if (const std::string part = textBehind(graph, kept.node); part != kept.part)
+        if (const std::string part = textBehind(graph, kept.node);
+            part != kept.part || kept.algorithms != kAlgorithmVersion)
             return useless(differenceOf(kept, part));
     }
     return done();

@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <optional>
 
+#include "graph/base/algorithm_version.h"
 #include "runtime/bake/sweep.h"
 #include "runtime/system/cache_file.h"
 #include "runtime/system/clock.h"
@@ -256,7 +257,7 @@ bool fits(const Device& device, const MeshInGrid& mesh) {
 
 // ---- What was made before
 
-constexpr uint32_t kVersion = 5;  // of the file's words and of how they are found
+constexpr uint32_t kVersion = 6;  // of the file's words
 
 std::string pathOf(const MeshFieldRecipe& recipe) {
     char name[24];
@@ -305,6 +306,7 @@ FieldVolumePtr readMade(const MeshFieldRecipe& recipe) {
     std::error_code ignored;
     std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now(), ignored);
     Taken file(words);
+    if (file.take<uint32_t>() != kAlgorithmVersion) return nullptr;
     VolumeGrid grid;
     for (glm::dvec3* of : {&grid.origin, &grid.inset})
         for (int axis = 0; axis < 3; ++axis) (*of)[axis] = file.take<double>();
@@ -348,6 +350,7 @@ void keepMade(const MeshFieldRecipe& recipe, const FieldVolume& volume) {
     if (path.empty()) return;
     std::vector<uint32_t> words;
     words.reserve(volume.words.size() + 256);
+    put(words, kAlgorithmVersion);
     for (const glm::dvec3* of : {&volume.grid.origin, &volume.grid.inset})
         for (int axis = 0; axis < 3; ++axis) put(words, (*of)[axis]);
     put(words, volume.grid.cell);

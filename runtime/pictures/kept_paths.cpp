@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "graph/base/algorithm_version.h"
 #include "graph/base/hash.h"
 #include "graph/document/json.h"
 #include "runtime/system/output_file.h"
@@ -15,7 +16,8 @@ namespace fw {
 namespace {
 
 struct Head {
-    char name[8] = {'F', 'W', 'P', 'A', 'T', 'H', 'S', '2'};
+    char name[8] = {'F', 'W', 'P', 'A', 'T', 'H', 'S', '3'};
+    uint64_t algorithms = kAlgorithmVersion;
     uint64_t key = 0;
     int64_t paths = 0;
 };
@@ -68,8 +70,8 @@ PathSums KeptPaths::read() const {
     const Head mine;
     PathSums there;
     if (!file.read(reinterpret_cast<char*>(&head), sizeof head) ||
-        std::memcmp(head.name, mine.name, 8) != 0 || head.key != key || head.paths < 1 ||
-        head.paths > samples)
+        std::memcmp(head.name, mine.name, 8) != 0 || head.algorithms != mine.algorithms || head.key != key ||
+        head.paths < 1 || head.paths > samples)
         return there;
     there.sums.resize(floats);
     if (!file.read(reinterpret_cast<char*>(there.sums.data()), std::streamsize(floats * sizeof(float))))

@@ -197,10 +197,12 @@ TilePlan planTiles(const CellGrid& grid, int tileCells) {
     return plan;
 }
 
-uint64_t tileKey(const Session& session, const MeshRequest& request, const TilePlan& plan) {
+uint64_t tileKey(const Session& session, const MeshRequest& request, const TilePlan& plan,
+                 uint32_t algorithms) {
     const Program& program = session.program();
     Hash hash;
     hash.add(std::string(FIELDWRIGHT_VERSION));
+    hash.add(&algorithms, sizeof algorithms);
     hash.add(session.device().name());
     hash.add(emitField(program));
     hash.add(program.parameters());

@@ -12,6 +12,7 @@
 
 #include <functional>
 
+#include "graph/base/algorithm_version.h"
 #include "runtime/export/tile_file.h"
 #include "runtime/play/session.h"
 
@@ -38,7 +39,8 @@ struct TilePlan {
 TilePlan planTiles(const CellGrid& grid, int tileCells);
 
 /// Equal where a tile of the session's program, meshed as `request` has it, has the same bytes.
-uint64_t tileKey(const Session& session, const MeshRequest& request, const TilePlan& plan);
+uint64_t tileKey(const Session& session, const MeshRequest& request, const TilePlan& plan,
+                 uint32_t algorithms = kAlgorithmVersion);
 
 /// Where tile `index` goes in the folder of the tiles' files.
 std::string tilePath(const std::string& folder, const TilePlan& plan, std::size_t index);

@@ -110,7 +110,7 @@ TEST_F(Interruption, PathsOfLightGoOnWhereTheyWereLeft) {
     // What an ended command leaves behind, by hand, for when it does is a matter of time: none of another
     // picture is taken, and none that is not whole.
     for (const char* left :
-         {"", "FWPATHS2", "of something else, and long enough to be a head of such a file"}) {
+         {"", "FWPATHS3", "of something else, and long enough to be a head of such a file"}) {
         test::writeText(folder.path("again.png.paths"), left);
         const CommandResult result = render("again.png", "24");
         EXPECT_EQ(result.status, 0) << result.errors;

@@ -12,6 +12,7 @@
 #include <set>
 #include <span>
 
+#include "graph/base/algorithm_version.h"
 #include "tests/support/command.h"
 #include "tests/support/graph/temp_dir.h"
 
@@ -302,6 +303,9 @@ TEST_F(ParticleCaches, ThatAreNoneAreRefused) {
             {R"({"fieldwright_particle_cache": 2, "simulations": []})", "is of a newer Fieldwright"},
             {R"({"fieldwright_particle_cache": 1, "simulations": []})", "it has none"},
             {R"({"fieldwright_particle_cache": 1, "simulations": [{"node": "rain", "part": "x", "data": "z"}]})",
+             "a version of Fieldwright with other algorithms"},
+            {R"({"fieldwright_particle_cache": 1, "simulations": [{"node": "rain", "part": "x", "algorithms": )" +
+                 std::to_string(kAlgorithmVersion) + "}]}",
              "its nodes are others"}}) {
         test::writeText(cache + "/particles.cache", text);
         expectRefusal(exported("rain", "0", "a.ply", fromCache()), 1, {what});

@@ -8,17 +8,20 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
 #include <random>
 
+#include "graph/base/algorithm_version.h"
 #include "graph/base/parallel.h"
 #include "graph/document/json.h"
 #include "runtime/bake/mesh_field_baker.h"
 #include "runtime/measure/mesh_report.h"
 #include "runtime/play/player.h"
+#include "runtime/system/cache_file.h"
 #include "tests/support/device_field.h"
 #include "tests/support/gpu.h"
 #include "tests/support/graph/temp_dir.h"
@@ -412,6 +415,19 @@ TEST_F(MeshFieldDevice, WhatWasMadeIsReadFromTheDisk) {
     writeText(file, "short");
     EXPECT_EQ((*kept(recipe))->words, first->words);
     EXPECT_EQ(asked, 3);
+    EXPECT_EQ((*kept(recipe))->words, first->words);
+    EXPECT_EQ(asked, 3);
+    // A mesh that another version of the algorithms baked. The key follows 8 bytes of the header.
+    bytes = readText(file);
+    uint64_t key = 0;
+    std::memcpy(&key, &bytes[8], sizeof key);
+    std::vector<uint32_t> words = readCacheFile(file, key);
+    ASSERT_FALSE(words.empty());
+    ASSERT_EQ(words[0], kAlgorithmVersion);
+    ++words[0];
+    writeCacheFile(file, key, words);
+    EXPECT_EQ((*kept(recipe))->words, first->words);
+    EXPECT_EQ(asked, 4);
 }
 
 TEST_F(MeshFieldDevice, APlayerWatchesTheFileAndBakesOnce) {

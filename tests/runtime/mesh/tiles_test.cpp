@@ -247,6 +247,19 @@ TEST(Tiles, ThatDoNotMeetAreRefused) {
     EXPECT_NE(hole.error().message.find("do not fit together"), std::string::npos);
 }
 
+TEST(Tiles, OfAnotherVersionOfTheAlgorithmsAreNotUsed) {
+    const Result<Graph> graph = readGraph(samplePath("gyroid_sphere"), nullptr);
+    Session session = sessionOf(programOf(*graph));
+    const TempDir folder;
+    const MeshRequest request{Box{{-1, -1, -1}, {1, 1, 1}}, 128};
+    const TilePlan plan = planTiles(*cellGrid(*request.region, request.resolution), 64);
+    const uint64_t present = tileKey(session, request, plan);
+    const uint64_t former = tileKey(session, request, plan, kAlgorithmVersion + 1);
+    ASSERT_TRUE(meshTile(session, request, plan, former, 0, folder.folder.string(), nullptr));
+    EXPECT_TRUE(doneTile(folder.folder.string(), plan, former, 0));
+    EXPECT_FALSE(doneTile(folder.folder.string(), plan, present, 0));
+}
+
 TEST(Tiles, PlansCoverTheGrid) {
     for (const glm::ivec3 cells :
          {glm::ivec3(1), {63, 64, 65}, {95, 96, 97}, {127, 128, 129}, {2048, 7, 1300}}) {

@@ -150,6 +150,14 @@ TEST(Shutter, PathsAreKeptForTheirCameraAlone) {
         render.keepSums();
     }
     EXPECT_EQ(goesOnFrom(wish), 3);
+    // Paths of another version of the algorithms are not used. The version follows 8 bytes of name.
+    const std::string whole = test::readText(output + ".paths");
+    std::string changed = whole;
+    ++changed[8];
+    test::writeText(output + ".paths", changed);
+    EXPECT_EQ(goesOnFrom(wish), 0);
+    test::writeText(output + ".paths", whole);
+    EXPECT_EQ(goesOnFrom(wish), 3);
     RenderOptions other = wish;
     other.scene.camera.reset();  // the scene's
     EXPECT_EQ(goesOnFrom(other), 0);
