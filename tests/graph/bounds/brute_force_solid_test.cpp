@@ -7,10 +7,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "graph/assets/mesh_field.h"
 #include "graph/compile/compile.h"
 #include "graph/document/json.h"
 #include "graph/evaluate/evaluate.h"
 #include "tests/support/graph/random_scene.h"
+#include "tests/support/graph/triangle_meshes.h"
 
 namespace fw::brute_force_solid_test {
 
@@ -142,6 +144,21 @@ TEST(BruteForceSolid, NoticesASolidThatIsALittleDifferent) {
     const BruteForceSolid one = sphereOf(1.0), other = sphereOf(1.002);
     EXPECT_GT(other.volume - one.volume, one.volumeError);
     EXPECT_GT(other.bounds->hi[0] - one.bounds->hi[0], 0.0);
+}
+
+TEST(BruteForceSolid, AgreesWithTheVolumeOfAMesh) {
+    const TriangleMesh mesh = test::torusFile(96, 48);
+    const Result<FieldVolumePtr> baked = bakeOnHost({.mesh = test::shared(mesh), .resolution = 96});
+    ASSERT_TRUE(baked) << format(baked.error());
+    Ir ir;
+    const IrId distance =
+        ir.sample(ir.addVolume(*baked), tricubicChannel, {ir.position(0), ir.position(1), ir.position(2)});
+    const BruteForceSolid solid =
+        sampleByBruteForce(test::ReferenceField(ir, distance, {}), test::gridOver(cubeAround(1.5), 48));
+    const SolidMesh closed = solidMesh(mesh);
+    EXPECT_EQ(solid.bodies.size(), closed.found.parts);
+    // Values between the samples of the baked grid add to the error of the oracle.
+    EXPECT_NEAR(solid.volume, closed.volume, solid.volumeError + 0.003 * closed.volume);
 }
 
 TEST(ReferenceField, AgreesWithTapes) {

@@ -46,7 +46,7 @@ enum class Fault {
     overestimated,   ///< a value exceeds what the Lipschitz constant allows
     notExact,        ///< a value is smaller than the distance, though it is declared exact
     unitMatters,     ///< the same scene in another unit is another field
-    looserInUnit,    ///< the same scene in another unit has a region of another size
+    looserInUnit,    ///< the region of the same scene in another unit has a different size
 };
 
 const char* nameOf(Fault fault) {
@@ -59,7 +59,7 @@ const char* nameOf(Fault fault) {
         case Fault::overestimated: return "overestimates the distance";
         case Fault::notExact: return "is declared exact, but underestimates the distance";
         case Fault::unitMatters: return "is another field in another unit";
-        case Fault::looserInUnit: return "has a region of another size in another unit";
+        case Fault::looserInUnit: return "has a region whose size depends on the unit";
     }
     return "";
 }

@@ -178,7 +178,7 @@ void sampleNearSurface(const PointField& field, BruteForceSolid& solid, uint32_t
     solid.volumeError = 3.0 * std::sqrt(variance) * cellVolume;
 }
 
-/// Drops the segments whose surface point is farther from `from` than that of another segment.
+/// Drops the segments whose surface point is farther from `from` than the one of a nearer segment.
 void dropFarther(const Point& from, std::vector<Point>& inside, std::vector<Point>& outside) {
     // Along a segment the distance has no maximum between the ends, and its minimum is off by its length.
     double farthestOfBest = std::numeric_limits<double>::infinity();

@@ -64,7 +64,7 @@ struct BruteForceSolid {
     /// Whether both ways of counting agree, so that the number of bodies does not depend on the connectivity.
     bool isBodyCountCertain() const { return bodies.size() == bodiesByCorners; }
 
-    /// Around all inside points that were found; empty if there are none. Each side is touched by an inside
+    /// Around all inside points that were found; empty without any. Each side is touched by an inside
     /// point, so the box never exceeds the true bounds by more than rounding. It falls short of them by less
     /// than `boundsError`.
     std::optional<Box> bounds;
