@@ -12,16 +12,17 @@ namespace fw::test {
 
 namespace {
 
-std::map<std::string, FluidKernels> kept;  // by the obstacle's text, of all tests
+std::map<std::string, FluidKernels> kernelsByObstacle;  // by the obstacle's text, of all tests
 
 }  // namespace
 
-void Fluid::TearDownTestSuite() { kept.clear(); }
+void Fluid::TearDownTestSuite() { kernelsByObstacle.clear(); }
 
 const FluidKernels& kernelsFor(const std::string& obstacle) {
-    const auto found = kept.find(obstacle);
-    return found != kept.end() ? found->second
-                               : kept.emplace(obstacle, createFluidKernels(device(), obstacle)).first->second;
+    const auto found = kernelsByObstacle.find(obstacle);
+    return found != kernelsByObstacle.end()
+               ? found->second
+               : kernelsByObstacle.emplace(obstacle, createFluidKernels(device(), obstacle)).first->second;
 }
 
 std::vector<glm::vec3> read(const Buffer& buffer, uint32_t count) {

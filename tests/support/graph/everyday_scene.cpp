@@ -11,8 +11,6 @@ namespace fw::test {
 
 namespace {
 
-double norm(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); }
-
 /// Twelve significant digits.
 std::string digits(double value) {
     char text[40];

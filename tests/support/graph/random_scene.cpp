@@ -8,12 +8,12 @@ namespace fw::test {
 
 namespace {
 
-double norm(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); }
-
 /// The farthest that a solid can be from its local origin before it is made smaller, in metres.
 constexpr double kMaxReach = 3.0;
 
 }  // namespace
+
+double norm(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); }
 
 std::string sceneNumber(double value) {
     constexpr std::int64_t kDecimals = 10'000'000;

@@ -41,6 +41,8 @@ RandomScene randomScene(uint32_t seed);
 /// A scene with a timeline of 4 s that moves a solid and changes other inputs: twist rates, angles.
 RandomScene randomMovingScene(uint32_t seed);
 
+/// The length of a vector.
+double norm(const Point& p);
 /// A number as JSON text: at most seven decimals.
 std::string sceneNumber(double value);
 std::string sceneVector(const Point& value);
