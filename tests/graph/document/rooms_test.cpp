@@ -89,7 +89,7 @@ TEST(Rooms, AreKnown) {
     for (const auto& [room, known] : kRooms) rooms.insert(room);
     for (const auto& file : sources())
         EXPECT_TRUE(rooms.contains(roomOf(file)))
-            << file << " stands in no room of tests/graph/document/rooms_test.cpp";
+            << file << " is in no room that is listed in tests/graph/document/rooms_test.cpp";
 }
 
 TEST(Rooms, KnowOnlyThoseAboveThem) {

@@ -36,7 +36,7 @@ TEST(Schema, TheFileIsCurrent) {
     if (std::getenv("FIELDWRIGHT_UPDATE_SCHEMA"))
         std::ofstream(kSchemaPath, std::ios::binary) << fileSchema();
     EXPECT_EQ(contents(kSchemaPath), fileSchema())
-        << "write it anew with FIELDWRIGHT_UPDATE_SCHEMA=1 graph_document_tests --gtest_filter='Schema.*'";
+        << "update it with FIELDWRIGHT_UPDATE_SCHEMA=1 graph_document_tests --gtest_filter='Schema.*'";
 }
 
 TEST(Schema, AcceptsTheSamples) {

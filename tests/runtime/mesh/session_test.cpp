@@ -175,7 +175,7 @@ TEST(Session, WhatWouldBeTracedForLongIsADraft) {
     ASSERT_TRUE(result);
     RenderOptions options{.width = 64, .height = 48, .samples = 2};
     EXPECT_TRUE(sooner.render(*result, options));
-    options.show = RENDER_SLICE;  // needs the field, whatever it costs; a shadow of it would take a minute
+    options.show = RENDER_SLICE;  // always evaluates the field; a traced shadow would take a minute
     options.scene.sun.reset();
     EXPECT_TRUE(sooner.render(*result, options));
     sooner.setProgram(sample("tower"));

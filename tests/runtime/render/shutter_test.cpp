@@ -150,7 +150,7 @@ TEST(Shutter, PathsAreKeptForTheirCameraAlone) {
         render.keepSums();
     }
     EXPECT_EQ(goesOnFrom(wish), 3);
-    // Paths of another version of the algorithms are not used. The version follows 8 bytes of name.
+    // Paths that other algorithms made are not used. The version follows 8 bytes of name.
     const std::string whole = test::readText(output + ".paths");
     std::string changed = whole;
     ++changed[8];
