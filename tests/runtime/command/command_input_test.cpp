@@ -32,7 +32,7 @@ std::string repeated(const std::string& text, int times) {
 
 /// Exports the document and expects it to be refused with all of `parts`.
 void expectBadGraph(const std::string& text, const std::vector<std::string>& parts,
-                    const std::vector<std::string>& arguments = {}) {
+                    const std::vector<std::string>& arguments = {}, double maxSeconds = test::kMostSeconds) {
     SCOPED_TRACE(text.substr(0, 300));
     const TempDir folder;
     const std::string path = folder.path("bad.field.json");
@@ -41,7 +41,7 @@ void expectBadGraph(const std::string& text, const std::vector<std::string>& par
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<std::string> said = {"bad.field.json:"};
     said.insert(said.end(), parts.begin(), parts.end());
-    expectRefusal(runCommand(words), 1, said);
+    expectRefusal(runCommand(words), 1, said, maxSeconds);
     EXPECT_EQ(folder.names(), std::vector<std::string>{"bad.field.json"});
 }
 
@@ -140,9 +140,9 @@ TEST(CommandInput, CodeWithoutEnd) {
         {"code 1:", "calls itself"});
     expectBadGraph(code("return p.x" + repeated(" + p.x", 1'000'000) + ";"), {"code 1:", "200000"});
     expectBadGraph(code("return " + repeated("(", 100'000) + "1;"), {"code 1:", "nested deeper"});
-    // Long but allowed; the region search still ends soon.
+    // Long but allowed: the region search spends its whole budget of steps, about 2 s.
     expectBadGraph(code("d = p.x; " + repeated("d = sin(d) + cos(d);", 15'000) + "return d;"),
-                   {"cannot be proven bounded"});
+                   {"cannot be proven bounded"}, {}, 2.5 * test::kMostSeconds);
     expectBadGraph(code("d = p.x; for (int i = 0; i < 1000000; i++) d = sin(d + i); return d;"),
                    {"code 1:", "operations"});
 }
